@@ -1,0 +1,25 @@
+// The material point method on a bar: particles carry the state, a background grid of 2-node cells solves eq. 18.
+#pragma once
+
+#include <vector>
+
+#include "material/record.hpp"
+#include "material/scene.hpp"
+
+namespace diptych::mpm {
+
+/// When the stress is updated: first, last, or last with the nodal velocities mapped once more from the particles.
+enum class Scheme { usf, usl, musl };
+
+/// Largest stable time step of a bar with free ends [s]: closed forms for particles at natural coordinates ξ of every cell.
+/// Convected particles sweep all of ξ: then the least over the sweep for USF and MUSL; USL has no lower bound there, and
+/// the value for the positions at the start is given.
+double critical_time_step(const Scene&, int cells, const std::vector<double>& positions, Scheme);
+
+/// Runs the scene with equal-mass particles at natural coordinates `positions` (each in [0, 1], ascending) of every
+/// one of `cells` equal cells. Snapshots: stress per particle over its share of its cell, velocity and displacement
+/// per particle. With MUSL and USL stress and displacement stand at the step's time and velocity half a step before
+/// it; with USF velocity stands at the step's time, stress half a step before and displacement half a step after it.
+Record run(const Scene&, int cells, const std::vector<double>& positions, Scheme, const Stepping&);
+
+}  // namespace diptych::mpm
