@@ -75,8 +75,9 @@ class Bar {
     return sum;
   }
   Work work(long steps) const {
-    const long n = static_cast<long>(cells_);
-    return {n * steps, 0, (n + 1) * steps, cells_ * sizeof(typename Law::State) + 4 * (cells_ + 1) * sizeof(double)};
+    const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
+    return {static_cast<long>(cells_) * steps, 0, static_cast<long>(cells_ + 1) * steps,
+            bytes(state_) + bytes(mass_) + bytes(force_) + bytes(velocity_) + bytes(displacement_) + bytes(body_)};
   }
 
  private:

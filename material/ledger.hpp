@@ -26,12 +26,12 @@ class Ledger {
   void after_kick(double work_rate, double kick) { add_work(kick * work_rate / 2); }
 
   void close_line(double kinetic, double strain, double dissipated, double momentum) {
-    dissipated_ += dissipated;
-    const double held = kinetic + strain + dissipated_;
+    const double held = kinetic + strain + dissipated_;  // strain starts from ψⁿ, so heat is that of the steps before
     // The books open with the first line: before it the leapfrog has no energy of its own.
     if (lines_.empty()) opening_ = held - work_;
     lines_.push_back({first_time_ + static_cast<double>(lines_.size()) * dt_, kinetic, strain, dissipated_, work_,
                       work_ + opening_ - held, momentum, start_momentum_ + impulse_});
+    dissipated_ += dissipated;
   }
 
   /// A stable run never holds more than was put in; at a Courant number very near the limit the energies at hand can

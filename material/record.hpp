@@ -29,7 +29,7 @@ struct LedgerLine {
   double time = 0;        ///< of the velocity [s]
   double kinetic = 0;     ///< [J]
   double strain = 0;      ///< recoverable [J]
-  double dissipated = 0;  ///< by the material, since the start [J]
+  double dissipated = 0;  ///< by the material before the step that this update ends [J]
   double work = 0;        ///< of tractions and body force, since the start [J]
   double lost = 0;        ///< by the scheme, since the first line [J]
   double momentum = 0;    ///< [kg m/s]

@@ -466,16 +466,12 @@ double courant_limit(const std::vector<double>& positions, Scheme scheme, bool c
     mean += xi / count;
     filter += 4 * xi * (1 - xi) / count;
   }
-  if (scheme == Scheme::usl) {
-    // The end cell of a free bar limits first: its two nodes carry the shares x̄ and 1 − x̄ of the cell's mass alone.
-    const double spread = mean * (1 - mean);
-    if (spread <= 0) return 0;
-    const double gradient_kept = 1 - filter / (4 * spread);
-    return std::min(2 * std::sqrt(spread / (2 - gradient_kept)), 1 / std::sqrt(1 + filter));
-  }
+  // The end cell of a free bar may limit first: its two nodes carry the shares x̄ and 1 − x̄ of the cell's mass alone.
+  const double spread = mean * (1 - mean), gradient_kept = spread > 0 ? std::max(0.0, 1 - filter / (4 * spread)) : 0;
+  if (scheme == Scheme::usl) return std::min(2 * std::sqrt(spread / (2 - gradient_kept)), 1 / std::sqrt(1 + filter));
   if (convected) return 1;  // reached when every particle stands on a node
-  const double q = filter > 0.5 ? 1 / (2 * filter) : 1;
-  return 1 / std::sqrt(q * (1 - filter * q));
+  const double q = filter > 0.5 ? 1 / (2 * filter) : 1, inside = 1 / std::sqrt(q * (1 - filter * q));
+  return gradient_kept > 0 ? std::min(inside, 2 * std::sqrt(spread / gradient_kept)) : inside;
 }
 
 }  // namespace

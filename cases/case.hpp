@@ -1,0 +1,121 @@
+// A case file as data: one scene, an exact solution where there is one, the axes to sweep, and the gates.
+// cases/README.md is the schema for people; cases/case_file.cpp is the schema for the program.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "material/scene.hpp"
+
+namespace diptych::cases {
+
+/// A length or a time as written: value and unit. Times: "s" or "L/c". Lengths: "m", "L" or "cells".
+struct Measured {
+  double value = 0;
+  std::string unit;
+};
+
+struct LoadSpec {
+  End end = End::right;
+  std::string history;       ///< "step", "ramp", "impulse" or "expression"
+  double traction = 0;       ///< amplitude, tension positive (not for "expression")
+  Measured start{0, "s"};    ///< when it begins, ≥ 0
+  Measured rise;             ///< ramp: > 0
+  Measured duration;         ///< impulse: > 0
+  std::string expression;    ///< of t (and parameters), for "expression"
+  Transfer transfer = Transfer::node;
+  Measured layer_thickness;  ///< boundary layer: > 0, unit "cells", "m" or "L"
+};
+
+struct ExactSpec {
+  /// "bar-wave" (steps, ramps and impulses on the ends, from rest), "standing-mode", "expressions" or "none".
+  std::string solution = "none";
+  int mode = 1;              ///< standing-mode
+  double amplitude = 0;      ///< standing-mode [length]
+  std::string stress, velocity, displacement;  ///< expressions of x and t; an empty one is not compared
+};
+
+/// Values of the swept axes; every combination is a run (FEM ignores `particles`: one run for all of them).
+struct Axes {
+  std::vector<std::string> method;      ///< "fem", "mpm-usf", "mpm-usl", "mpm-musl"
+  std::vector<int> cells;               ///< ≥ 1
+  std::vector<double> courant;          ///< > 0
+  std::vector<std::vector<double>> particles{{0.5}};  ///< natural coordinates ξ in [0, 1], ascending, at least one
+};
+
+/// Restricts a gate to some values of the axes; an empty list is no restriction.
+struct Where {
+  std::vector<std::string> method;
+  std::vector<int> cells;
+  std::vector<double> courant;
+  std::vector<std::vector<double>> particles;
+};
+
+struct Probe {
+  std::string id;
+  std::string field;  ///< "stress", "velocity", "displacement"
+  Measured at;        ///< reference coordinate, unit "m", "L" or "cells" counted from the left end
+};
+
+struct GateSpec {
+  std::string id;        ///< unique in the case
+  std::string kind;      ///< "exact", "constant", "order", "invariant", "limit"
+  std::string quantity;  ///< see cases/README.md
+  std::string reason;    ///< why this tolerance
+  Where where;
+  std::vector<double> times;          ///< subset of the sample times; empty: all
+  std::optional<double> max;          ///< exact, invariant: |value| ≤ max (exact: in units of the field's scale)
+  std::optional<std::array<double, 2>> ratio;  ///< constant, limit: measured / predicted within, inclusive
+  std::string predict;                ///< constant, limit: name of the theory
+  std::optional<double> expect;       ///< order: must agree with theory where there is one
+  std::optional<std::array<double, 2>> band;   ///< order: allowed slope, inclusive
+  int levels_min = 4;                 ///< order: least number of meshes
+  std::string outcome;                ///< limit: "unstable" where the runs must be detected as unstable
+  long steps = 2000;                  ///< limit: steps of each trial of the bisection
+  bool slow = false;                  ///< left out by --quick, and then reported as left out
+  int line = 0;                       ///< of its declaration
+  std::string declaration;            ///< its own keys and values in one canonical line, for gates.lock
+};
+
+struct FigureSpec {
+  std::string id;      ///< "fig1"
+  std::string field = "stress";
+  std::vector<double> times;          ///< subset of the sample times; empty: all
+  std::vector<std::string> captions;  ///< one per time: what to see
+  int cells = 0;                      ///< which runs to draw
+  double courant = 0;                 ///< FEM and, unless mpm_courant says otherwise, MPM
+  std::vector<std::string> methods;   ///< drawn ones
+  std::vector<double> particles{0.5};
+  std::optional<std::array<double, 2>> range;  ///< of the field's axis
+};
+
+struct Case {
+  std::filesystem::path path;
+  std::string id, title, claim, why;
+  std::vector<std::string> paper_figures;  ///< "1", "3a"
+  std::string units;                       ///< "SI" or "paper"
+  double length = 0;
+  material::Material material;
+  Support left = Support::free, right = Support::free;
+  bool convected = false;
+  std::vector<LoadSpec> loads;
+  std::string body_force, initial_velocity, initial_stress;  ///< expressions, empty: none
+  std::map<std::string, double> parameters;                  ///< names for expressions, besides L, E, rho, c and pi
+  std::vector<std::string> features;                         ///< declared, sorted
+  ExactSpec exact;
+  std::vector<Axes> axes;      ///< blocks; the runs are the union of their products
+  std::string time_unit;      ///< "s" or "L/c"
+  std::vector<double> times;  ///< ascending, > 0
+  std::vector<Probe> probes;
+  std::vector<GateSpec> gates;
+  std::vector<FigureSpec> figures;
+  bool allow_unstable = false;
+  bool ledger = true;
+};
+
+}  // namespace diptych::cases

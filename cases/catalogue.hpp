@@ -1,0 +1,24 @@
+// Which cases there are, and which of them the user means.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cases/case.hpp"
+
+namespace diptych::cases {
+
+/// Every case file that comes with the program, by id. Throws InputError where one is wrong or two share an id.
+std::vector<Case> all_cases();
+
+/// Cases by path, by id or by a glob over ids; all of them for an empty list. A selector may end in "/GATE": then only
+/// that gate is kept. Throws InputError where a selector fits nothing, with the nearest id.
+std::vector<Case> select_cases(const std::vector<std::string>& selectors);
+
+/// "case/gate declaration", one line per gate, sorted: the content of cases/gates.lock.
+std::string declarations(const std::vector<Case>&);
+/// How the gates of these cases differ from cases/gates.lock, one line each; empty where they agree. Cases that do not
+/// come with the program are not in the lock. With `whole`, gates in the lock that no case declares are named too.
+std::vector<std::string> differences_from_lock(const std::vector<Case>&, bool whole);
+
+}  // namespace diptych::cases

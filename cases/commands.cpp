@@ -1,0 +1,283 @@
+#include "cases/commands.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <boost/timer/progress_display.hpp>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <set>
+#include <thread>
+
+#include "cases/case_file.hpp"
+#include "cases/catalogue.hpp"
+#include "cases/figures.hpp"
+#include "cases/gates.hpp"
+#include "cases/provenance.hpp"
+#include "cases/runner.hpp"
+#include "reports/figure.hpp"
+#include "reports/files.hpp"
+#include "reports/tables.hpp"
+
+namespace diptych::cases {
+namespace {
+
+int threads_of(const Options& options) {
+  return options.threads > 0 ? options.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+/// A bar on a terminal, a plain line every quarter of the way elsewhere; on standard error, so results stay clean.
+Progress progress() {
+  if (isatty(STDERR_FILENO)) {
+    auto bar = std::make_shared<std::unique_ptr<boost::timer::progress_display>>();
+    return {[bar](std::size_t done, std::size_t total) {
+      if (!*bar) *bar = std::make_unique<boost::timer::progress_display>(total, std::cerr);
+      **bar += done - (*bar)->count();
+    }};
+  }
+  return {[](std::size_t done, std::size_t total) {
+    if (done == total || done * 4 / total != (done - 1) * 4 / total) fmt::print(stderr, "{} of {} runs\n", done, total);
+  }};
+}
+
+/// Runs, judges every gate and makes the figures.
+std::vector<reports::Case> measure(const std::vector<Case>& cases, const Options& options, const std::atomic<bool>& cancelled) {
+  auto results = run_cases(cases, threads_of(options), &cancelled, progress());
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    for (const GateSpec& gate : cases[i].gates) results[i].gates.push_back(judge(cases[i], gate, results[i].runs));
+    results[i].figures = make_figures(cases[i], results[i].runs);
+  }
+  return results;
+}
+
+void print_gate(const reports::Gate& gate) {
+  std::string margin = gate.verdict == reports::Verdict::pass ? fmt::format("{:4.0f} % headroom", 100 * gate.headroom()) : gate.message;
+  fmt::print("{:8} {}/{}  {}  {}\n", to_string(gate.verdict), gate.case_id, gate.id, gate.formula, margin);
+}
+
+/// Prints the verdict's last line and returns the exit status.
+int finish(const std::vector<Case>& cases, const std::vector<reports::Case>& results, int left_out, bool whole) {
+  int declared = 0;
+  for (const Case& c : cases) declared += static_cast<int>(c.gates.size());
+  Outcome outcome = sum_up(results, declared, left_out);
+  const auto differences = differences_from_lock(cases, whole);
+  if (!differences.empty()) {
+    fmt::print("\nThe gates are not those of cases/gates.lock:\n");
+    for (const auto& line : differences) fmt::print("  {}\n", line);
+    fmt::print("If that is meant: ./diptych list --declarations > cases/gates.lock\n");
+    outcome.exit_code = invalid;
+    outcome.verdict = "INVALID";
+  }
+  fmt::print("DIPTYCH-VERDICT {} gates={}/{} passed={} left_out={}\n", outcome.verdict, outcome.judged, outcome.declared,
+             outcome.passed, outcome.left_out);
+  return outcome.exit_code;
+}
+
+int leave_out_slow(std::vector<Case>& cases) {
+  int left_out = 0;
+  for (Case& c : cases) left_out += static_cast<int>(std::erase_if(c.gates, [](const GateSpec& g) { return g.slow; }));
+  std::erase_if(cases, [](const Case& c) { return c.gates.empty(); });
+  return left_out;
+}
+
+void write_tables(const reports::Case& result, const std::filesystem::path& directory) {
+  reports::write_file(directory / (result.id + ".txt"), reports::text_table(result));
+  reports::write_file(directory / (result.id + ".csv"), reports::csv_table(result));
+  reports::write_file(directory / (result.id + ".tex"), reports::latex_table(result));
+}
+
+/// Draws every figure whose id is wanted (all for an empty list); returns how many pictures could not be drawn.
+int draw_figures(const std::vector<reports::Case>& results, const std::filesystem::path& directory,
+                 const std::set<std::string>& wanted) {
+  int undrawn = 0;
+  bool missing = false;
+  for (const auto& result : results) {
+    for (const auto& figure : result.figures) {
+      if (!wanted.empty() && !wanted.count(figure.id)) continue;
+      std::string message;
+      const reports::Drawn drawn = reports::draw(figure, directory, message);
+      if (drawn == reports::Drawn::yes) {
+        fmt::print("{}\n", (directory / (figure.id + ".svg")).string());
+        continue;
+      }
+      missing = missing || drawn == reports::Drawn::gnuplot_missing;
+      undrawn += drawn == reports::Drawn::gnuplot_failed;
+      fmt::print("{}  (script and data only)\n", (directory / (figure.id + ".gp")).string());
+      if (drawn == reports::Drawn::gnuplot_failed) fmt::print(stderr, "gnuplot failed on {}: {}\n", figure.id, message);
+    }
+  }
+  if (missing) fmt::print(stderr, "gnuplot is not installed: no pictures, all else is complete (apt-get install gnuplot-nox)\n");
+  return undrawn;
+}
+
+bool any_cancelled(const std::vector<reports::Case>& results) {
+  std::size_t done = 0, total = 0;
+  for (const auto& result : results) {
+    for (const auto& run : result.runs) {
+      ++total;
+      done += run.status != "cancelled";
+    }
+  }
+  if (done < total) fmt::print(stderr, "stopped on request: {} of {} runs were finished and are kept\n", done, total);
+  return done < total;
+}
+
+bool all_completed(const std::vector<Case>& cases, const std::vector<reports::Case>& results) {
+  bool good = true;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    for (const auto& run : results[i].runs) {
+      const bool meant = cases[i].allow_unstable && run.status == "unstable";
+      if ((run.status == "completed" && run.invalid.empty()) || meant) continue;
+      good = false;
+      fmt::print(stderr, "{}: {}: {} {}\n", run.case_id, run.label(), run.status, run.invalid.empty() ? run.message : run.invalid);
+    }
+  }
+  return good;
+}
+
+/// "fig3" means fig3 and fig3a, fig3b.
+bool names_figure(const std::string& wanted, const std::string& id) {
+  if (id == wanted) return true;
+  return id.size() == wanted.size() + 1 && id.rfind(wanted, 0) == 0 && std::isalpha(static_cast<unsigned char>(id.back()));
+}
+
+}  // namespace
+
+int run_command(const Options& options, const std::atomic<bool>& cancelled) {
+  const auto cases = select_cases(options.selectors);
+  const auto results = measure(cases, options, cancelled);
+  for (const auto& result : results) {
+    fmt::print("{}\n", reports::text_table(result));
+    write_tables(result, options.out / "tables");
+  }
+  const int undrawn = draw_figures(results, options.out / "figures", {});
+  reports::write_file(options.out / "results.jsonl", reports::results_jsonl(results, provenance()));
+  fmt::print("{}\n", (options.out / "results.jsonl").string());
+  const bool stopped = any_cancelled(results);
+  return all_completed(cases, results) && !stopped && undrawn == 0 ? all_passed : unstable_or_error;
+}
+
+int gate_command(const Options& options, const std::atomic<bool>& cancelled) {
+  auto cases = select_cases(options.selectors);
+  const int left_out = options.quick ? leave_out_slow(cases) : 0;
+  const auto results = measure(cases, options, cancelled);
+  for (const auto& result : results) {
+    for (const auto& gate : result.gates) print_gate(gate);
+  }
+  if (!options.json.empty()) reports::write_file(options.json, reports::results_jsonl(results, provenance()));
+  if (!options.junit.empty()) reports::write_file(options.junit, reports::junit_xml(results));
+  any_cancelled(results);
+  return finish(cases, results, left_out, options.selectors.empty() && !options.quick);
+}
+
+int explain_command(const Options& options, const std::atomic<bool>& cancelled) {
+  const auto cases = select_cases(options.selectors);
+  const auto results = measure(cases, options, cancelled);
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    for (const auto& gate : results[i].gates) {
+      fmt::print("{}/{}: {}\n  {}\n  case        {}\n  declared    {}:{}\n  kind        {}\n  judged      {}\n  why so      {}\n",
+                 gate.case_id, gate.id, to_string(gate.verdict), gate.message.empty() ? "every check passed" : gate.message,
+                 cases[i].title, cases[i].path.string(), gate.line, gate.kind, gate.formula, gate.reason);
+      for (const auto& check : gate.checks) {
+        fmt::print("  {} {:60} value {:12.6g}{} judged {:12.6g} in [{:g}, {:g}]\n", check.passed ? "ok  " : "FAIL", check.what, check.value,
+                   check.predicted ? fmt::format("  predicted {:12.6g}", *check.predicted) : "", check.judged, check.low, check.high);
+      }
+      if (!gate.checks.empty()) fmt::print("  headroom    {:.0f} %\n\n", 100 * gate.headroom());
+    }
+  }
+  int declared = 0;
+  for (const Case& c : cases) declared += static_cast<int>(c.gates.size());
+  return sum_up(results, declared, 0).exit_code;
+}
+
+int list_command(const Options& options) {
+  const auto cases = select_cases(options.selectors);
+  if (options.declarations) {
+    fmt::print("{}", declarations(cases));
+    return all_passed;
+  }
+  for (const Case& c : cases) {
+    fmt::print("{}  {}{}\n", c.id, c.title, c.paper_figures.empty() ? "" : fmt::format("  [paper: Fig. {}]", fmt::join(c.paper_figures, ", ")));
+    for (const GateSpec& gate : c.gates) fmt::print("    {:24} {:10} {}{}\n", gate.id, gate.kind, gate.quantity, gate.slow ? "  (slow)" : "");
+  }
+  return all_passed;
+}
+
+int show_command(const Options& options) {
+  for (const Case& c : select_cases(options.selectors)) {
+    const auto end_text = [](Support s) { return s == Support::fixed ? "fixed" : "free"; };
+    fmt::print("{}: {}\n  file       {}\n  claim      {}\n  why        {}\n", c.id, c.title, c.path.string(), c.claim, c.why);
+    fmt::print("  bar        length {:g}, E {:g}, rho {:g}, wave speed {:g} ({} units), {}–{}, {} displacements\n", c.length,
+               material::youngs_modulus(c.material), material::density(c.material), material::wave_speed(c.material), c.units,
+               end_text(c.left), end_text(c.right), c.convected ? "finite" : "infinitesimal");
+    for (const LoadSpec& load : c.loads) {
+      fmt::print("  load       {} on the {} end, {}, through the {}\n", load.history, load.end == End::left ? "left" : "right",
+                 load.history == "expression" ? load.expression : fmt::format("traction {:g}", load.traction),
+                 load.transfer == Transfer::node ? "boundary node" : "boundary layer (eq. 16)");
+    }
+    if (!c.body_force.empty()) fmt::print("  body force {}\n", c.body_force);
+    if (!c.initial_velocity.empty()) fmt::print("  velocity   {} at the start\n", c.initial_velocity);
+    if (!c.initial_stress.empty()) fmt::print("  stress     {} at the start\n", c.initial_stress);
+    fmt::print("  exact      {}\n  features   {}\n  sampled    t = {} {}\n", c.exact.solution, fmt::join(c.features, ", "),
+               fmt::join(c.times, ", "), c.time_unit);
+    fmt::print("  runs       {}\n", leaves(c).size());
+    for (const Leaf& leaf : leaves(c)) {
+      fmt::print("             {} {} cells, Courant {:g}{}\n", leaf.method, leaf.cells, leaf.courant,
+                 leaf.particles.empty() ? "" : ", particles at " + particles_label(leaf.particles));
+    }
+    for (const GateSpec& gate : c.gates) fmt::print("  gate       {:24} {}\n             {}\n", gate.id, gate.declaration, gate.reason);
+  }
+  return all_passed;
+}
+
+int paper_command(const Options& options, const std::atomic<bool>& cancelled) {
+  auto cases = all_cases();
+  std::set<std::string> known, wanted;
+  for (const Case& c : cases) {
+    for (const FigureSpec& f : c.figures) known.insert(f.id);
+  }
+  for (const std::string& name : options.selectors) {
+    const std::size_t before = wanted.size();
+    for (const std::string& id : known) {
+      if (names_figure(name, id)) wanted.insert(id);
+    }
+    if (wanted.size() == before) {
+      throw InputError(fmt::format("no figure '{}'; there are: {}", name, fmt::join(known, ", ")));
+    }
+  }
+  if (options.selectors.empty()) wanted = known;
+  std::erase_if(cases, [&](const Case& c) {
+    return std::none_of(c.figures.begin(), c.figures.end(), [&](const FigureSpec& f) { return wanted.count(f.id) > 0; });
+  });
+  const auto out = options.out / "paper";
+  const auto results = measure(cases, options, cancelled);
+  const bool stopped = any_cancelled(results);
+  for (const auto& result : results) write_tables(result, out / "tables");
+  const int undrawn = draw_figures(results, out / "figures", wanted);
+  for (const auto& result : results) {
+    for (const char* ending : {".txt", ".csv", ".tex"}) fmt::print("{}\n", (out / "tables" / (result.id + ending)).string());
+  }
+  reports::write_file(out / "results.jsonl", reports::results_jsonl(results, provenance()));
+  fmt::print("{}\n", (out / "results.jsonl").string());
+  for (const auto& result : results) {
+    for (const auto& gate : result.gates) print_gate(gate);
+  }
+  const int status = finish(cases, results, 0, false);
+  if (status != all_passed) return status;
+  return stopped || undrawn > 0 ? unstable_or_error : all_passed;
+}
+
+int test_command() {
+  const std::string build = build_directory().string();
+  execlp("ctest", "ctest", "--test-dir", build.c_str(), "--output-on-failure", "--no-tests=error", "-j2", nullptr);
+  throw InputError("ctest could not be started; ./diptych test installs and builds what it needs");
+}
+
+std::string version_text() {
+  const auto p = provenance();
+  return fmt::format("diptych {} ({}{}), {}, flags{}, {}", p.version, p.commit, p.dirty ? ", changed" : "", p.compiler, p.flags, p.os);
+}
+
+}  // namespace diptych::cases

@@ -1,0 +1,29 @@
+// What the command line does, once it is read. Each command returns the process's exit status.
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace diptych::cases {
+
+struct Options {
+  std::vector<std::string> selectors;
+  std::filesystem::path out = "out";
+  std::filesystem::path json, junit;
+  int threads = 0;  ///< 0: all there are
+  bool quick = false;
+  bool declarations = false;
+};
+
+int run_command(const Options&, const std::atomic<bool>& cancelled);
+int gate_command(const Options&, const std::atomic<bool>& cancelled);
+int explain_command(const Options&, const std::atomic<bool>& cancelled);
+int list_command(const Options&);
+int show_command(const Options&);
+int paper_command(const Options&, const std::atomic<bool>& cancelled);
+int test_command();
+std::string version_text();
+
+}  // namespace diptych::cases

@@ -1,0 +1,25 @@
+// One point of a case's sweep.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cases/case.hpp"
+
+namespace diptych::cases {
+
+struct Leaf {
+  std::string method;
+  int cells = 0;
+  double courant = 0;
+  std::vector<double> particles;  ///< empty for FEM
+  bool operator==(const Leaf&) const = default;
+};
+
+/// Every run of the case once, in the order of its axes.
+std::vector<Leaf> leaves(const Case&);
+bool matches(const Where&, const Leaf&);
+/// "0.5" or "0.25 0.75": how tables and figures name the particles of a cell.
+std::string particles_label(const std::vector<double>&);
+
+}  // namespace diptych::cases

@@ -1,0 +1,95 @@
+// The command line: CLI11 reads it, commands.cpp does it.
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+
+#include "cases/case_file.hpp"
+#include "cases/commands.hpp"
+#include "cases/gates.hpp"
+
+namespace {
+
+std::atomic<bool> cancelled{false};
+
+// The first Ctrl-C lets the runs at work stop between two steps and keeps what is finished; the second kills.
+void on_signal(int number) {
+  cancelled = true;
+  std::signal(number, SIG_DFL);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace diptych::cases;
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+
+  CLI::App app{"Diptych: FEM and MPM side by side, judged against exact solutions and against each other"};
+  app.name("diptych");
+  app.require_subcommand(1);
+  app.set_version_flag("--version", version_text());
+  Options options;
+  int status = usage;
+
+  const auto add_threads = [&](CLI::App* command) {
+    command->add_option("-j,--jobs", options.threads, "threads; the results do not depend on it")->check(CLI::Range(1, 1024));
+  };
+  const auto add_out = [&](CLI::App* command) {
+    command->add_option("--out", options.out, "directory for results")->capture_default_str();
+  };
+  const auto add_cases = [&](CLI::App* command, bool required) {
+    auto* option = command->add_option("CASE", options.selectors, "case file, id, or pattern over ids; CASE/GATE for one gate");
+    if (required) option->required();
+  };
+
+  auto* paper = app.add_subcommand("paper", "write the paper's figures, their data and tables, and judge their cases");
+  paper->add_option("FIGURE", options.selectors, "fig1, fig2, fig3, ...; all without one");
+  add_out(paper);
+  add_threads(paper);
+  paper->callback([&] { status = paper_command(options, cancelled); });
+
+  app.add_subcommand("test", "unit tests, gates and planted defects: all that CI runs")->callback([&] { status = test_command(); });
+
+  auto* run = app.add_subcommand("run", "run cases and print convergence tables");
+  add_cases(run, true);
+  add_out(run);
+  add_threads(run);
+  run->callback([&] { status = run_command(options, cancelled); });
+
+  auto* gate = app.add_subcommand("gate", "run and judge; 0 only if every declared gate was judged and passed");
+  add_cases(gate, false);
+  gate->add_flag("--quick", options.quick, "leave out the gates marked slow");
+  gate->add_option("--json", options.json, "also write results to this file (JSON lines)");
+  gate->add_option("--junit", options.junit, "also write verdicts to this file (JUnit XML)");
+  add_threads(gate);
+  gate->callback([&] { status = gate_command(options, cancelled); });
+
+  auto* explain = app.add_subcommand("explain", "formula, numbers, prediction and margin of a gate");
+  explain->add_option("GATE", options.selectors, "CASE/GATE")->required();
+  add_threads(explain);
+  explain->callback([&] { status = explain_command(options, cancelled); });
+
+  auto* list = app.add_subcommand("list", "cases and their gates");
+  add_cases(list, false);
+  list->add_flag("--declarations", options.declarations, "every gate with its tolerance, as in cases/gates.lock");
+  list->callback([&] { status = list_command(options); });
+
+  auto* show = app.add_subcommand("show", "a case's scene, runs and gates");
+  add_cases(show, true);
+  show->callback([&] { status = show_command(options); });
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? all_passed : usage;
+  } catch (const InputError& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return usage;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "diptych: %s\n", error.what());
+    return unstable_or_error;
+  }
+  return status;
+}

@@ -1,0 +1,22 @@
+// True norms of a field's error against the exact field.
+#pragma once
+
+#include "analytic/exact.hpp"
+#include "material/record.hpp"
+
+namespace diptych::cases {
+
+/// Mean norms over the bar: (1/L ∫ |e|^p dx)^(1/p) and the largest |e| met; so L1 ≤ L2 ≤ L∞.
+struct Norms {
+  double l1 = 0, l2 = 0, linf = 0;
+};
+
+/// The field is taken as it is (constant over its intervals, or linear between its points) and never projected. Each
+/// interval between edges, points and exact fronts is integrated by itself with four Gauss points, so a front inside a
+/// cell counts with its exact position; L∞ is over the Gauss points. NaN anywhere makes all three NaN.
+Norms error_norms(const Field&, const analytic::ExactSolution&, analytic::Quantity, double length);
+
+/// The field's value at x.
+double value_at(const Field&, double x);
+
+}  // namespace diptych::cases

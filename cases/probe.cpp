@@ -1,0 +1,38 @@
+#include "cases/probe.hpp"
+
+#include <algorithm>
+
+#include "analytic/boundary_layer.hpp"
+#include "cases/build.hpp"
+#include "cases/norms.hpp"
+
+namespace diptych::cases {
+namespace {
+
+double end_share(const Case& c, const Leaf& leaf, const LoadSpec& load) {
+  if (load.transfer == Transfer::node) return 1;
+  std::vector<double> distances;
+  for (const double xi : leaf.particles) distances.push_back(load.end == End::left ? xi : 1 - xi);
+  std::sort(distances.begin(), distances.end());
+  const double cell = c.length / leaf.cells;
+  return analytic::end_stress_share(distances, length_of(c, load.layer_thickness, leaf.cells) / cell);
+}
+
+}  // namespace
+
+reports::ProbeValue read_probe(const Case& c, const Leaf& leaf, const Probe& probe, const Snapshot& snapshot) {
+  const Field& field = probe.field == "stress"     ? snapshot.stress
+                       : probe.field == "velocity" ? snapshot.velocity
+                                                   : snapshot.displacement;
+  const double x = length_of(c, probe.at, leaf.cells), cell = c.length / leaf.cells;
+  reports::ProbeValue value{probe.id, value_at(field, x), {}};
+  for (const LoadSpec& load : c.loads) {
+    const bool in_end_cell = load.end == End::left ? x < cell : x > c.length - cell;
+    if (probe.field == "stress" && in_end_cell && (load.history == "step" || load.history == "ramp")) {
+      value.predicted = load.traction * end_share(c, leaf, load);
+    }
+  }
+  return value;
+}
+
+}  // namespace diptych::cases

@@ -1,0 +1,595 @@
+#include "reports/figure.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wconversion"
+#pragma GCC diagnostic ignored "-Wsign-conversion"
+#pragma GCC diagnostic ignored "-Wshadow"
+#include <gnuplot-iostream.h>
+#pragma GCC diagnostic pop
+
+#include "reports/files.hpp"
+
+extern char** environ;
+
+namespace diptych::reports {
+namespace {
+
+namespace fs = std::filesystem;
+
+// ---- sizes of the picture [px]
+
+constexpr double width = 900, left = 88, right = 24, column_gap = 36, row_gap = 14;
+constexpr double margin = 14, title_line = 24, note_line = 15, legend_line = 20, x_axis = 46;
+constexpr double label_line = 16, label_char = 7.0, note_char = 6.2, title_char = 9.4;  // generous for a sans face
+constexpr double marker_spacing = 7.5;                                // closer markers melt into a band
+constexpr double sample = 34, sample_gap = 7, entry_gap = 26;         // of the legend
+
+/// How a series looks. Colours after Okabe & Ito; shapes differ too, for print without colour.
+struct Look {
+  std::string line;    ///< gnuplot's line properties
+  bool markers = false;
+};
+Look look(const std::string& kind, std::size_t nth) {
+  if (kind == "exact") return {"lw 4.5 lc rgb '#c6c6c6'", false};
+  if (kind == "fem") {
+    constexpr std::array<const char*, 3> lines{"lw 1.4 lc rgb '#08306b'", "lw 1.4 lc rgb '#0072b2' dt (8,3)",
+                                               "lw 1.4 lc rgb '#56b4e9' dt (2,3)"};
+    return {lines[nth % lines.size()], false};
+  }
+  if (kind == "mpm") {
+    constexpr std::array<const char*, 3> lines{"lc rgb '#d55e00' pt 6 ps 0.55",
+                                               "lc rgb '#009e73' pt 4 ps 0.5",
+                                               "lc rgb '#cc79a7' pt 8 ps 0.65"};
+    return {lines[nth % lines.size()], true};
+  }
+  return {"lw 1.2 lc rgb '#000000'", false};
+}
+
+/// One entry of the legend: all series of this label, in every panel.
+struct Entry {
+  std::string label, kind;
+  Look appearance;
+  std::size_t interval = 1;  ///< a marker at every so many points
+  double x = 0;              ///< of its sample in the legend [px]
+  std::size_t line = 0;      ///< of the legend
+  std::string text() const;
+};
+
+struct Box {
+  double x = 0, y = 0, w = 0, h = 0;  ///< from the panel's upper left corner [px]
+};
+
+/// Title and notes, broken into lines.
+struct Heading {
+  std::vector<std::string> title, notes;
+  double height() const {
+    return title_line * static_cast<double>(title.size()) + note_line * static_cast<double>(notes.size());
+  }
+};
+
+struct Layout {
+  std::size_t columns = 1, rows = 1;
+  double panel_width = 0, panel_height = 0, legend = 0, top = 0, height = 0;
+  double y_max = 0;  ///< of the axis, with room for the labels where data leave none
+  std::vector<std::vector<std::string>> labels;  ///< lines of each panel's label
+  std::vector<Box> places;
+};
+
+std::size_t characters(std::string_view text) {  // UTF-8 code points
+  return static_cast<std::size_t>(std::count_if(
+      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+}
+
+/// Breaks at spaces into lines of at most so many pixels, where words allow.
+std::vector<std::string> lines_of(const std::string& text, double pixels, double per_character) {
+  const auto limit = static_cast<std::size_t>(pixels / per_character);
+  std::vector<std::string> lines;
+  std::string line;
+  std::size_t used = 0;
+  for (std::size_t at = 0; at <= text.size();) {
+    const std::size_t end = std::min(text.find_first_of(" \n\r\t", at), text.size());
+    const std::string word = text.substr(at, end - at);
+    const std::size_t length = characters(word);
+    if (used > 0 && used + 1 + length > limit) {
+      lines.push_back(std::exchange(line, ""));
+      used = 0;
+    }
+    if (used > 0 && length > 0) line += ' ', ++used;
+    line += word;
+    used += length;
+    at = end + 1;
+  }
+  if (!line.empty()) lines.push_back(line);
+  return lines;
+}
+
+double length_of(const std::vector<std::string>& lines) {
+  std::size_t longest = 0;
+  for (const std::string& line : lines) longest = std::max(longest, characters(line));
+  return static_cast<double>(longest) * label_char;
+}
+
+bool drawable(const Figure::Series& series) {
+  for (std::size_t i = 0; i < series.curve.x.size(); ++i)
+    if (std::isfinite(series.curve.x[i]) && std::isfinite(series.curve.y[i])) return true;
+  return false;
+}
+
+/// Label of the panel, and which series it cannot show: a lost one must not look like a hidden one.
+std::string label_of(const Figure::Panel& panel) {
+  std::string missing;
+  for (const Figure::Series& series : panel.series)
+    if (!drawable(series)) missing += (missing.empty() ? "" : ", ") + series.label;
+  return missing.empty() ? panel.label : panel.label + " [no finite values: " + missing + "]";
+}
+
+/// Whether any curve of the panel passes through the box.
+bool crossed(const Figure& figure, const Figure::Panel& panel, const Layout& layout, const Box& box) {
+  constexpr double clearance = 5;
+  const double x_scale = layout.panel_width / (figure.x_max - figure.x_min);
+  const double y_scale = layout.panel_height / (layout.y_max - figure.y_min);
+  for (const Figure::Series& series : panel.series) {
+    double last_x = 0, last_y = 0;
+    bool has_last = false;
+    for (std::size_t i = 0; i < series.curve.x.size(); ++i) {
+      const double x = (series.curve.x[i] - figure.x_min) * x_scale;
+      const double y = (layout.y_max - series.curve.y[i]) * y_scale;
+      const bool good = std::isfinite(x) && std::isfinite(y);
+      if (good) {
+        const double reach = has_last ? std::max(std::abs(x - last_x), std::abs(y - last_y)) : 0;
+        const int pieces = static_cast<int>(std::clamp(reach / 3, 1.0, 1000.0));
+        for (int k = has_last ? 0 : pieces; k <= pieces; ++k) {
+          const double share = static_cast<double>(k) / pieces;
+          const double px = has_last ? last_x + share * (x - last_x) : x;
+          const double py = has_last ? last_y + share * (y - last_y) : y;
+          if (px > box.x - clearance && px < box.x + box.w + clearance && py > box.y - clearance &&
+              py < box.y + box.h + clearance)
+            return true;
+        }
+      }
+      has_last = good;
+      last_x = x;
+      last_y = y;
+    }
+  }
+  return false;
+}
+
+/// Finds for each panel's label a place that no curve crosses; false where a panel has none.
+bool place_labels(const Figure& figure, Layout& layout) {
+  layout.places.clear();
+  for (std::size_t i = 0; i < figure.panels.size(); ++i) {
+    const double w = length_of(layout.labels[i]), h = label_line * static_cast<double>(layout.labels[i].size());
+    const double far_x = layout.panel_width - w - 10, far_y = layout.panel_height - h - 6;
+    bool found = false;
+    for (const double y : {6.0, far_y})
+      for (const double x : {10.0, far_x, far_x / 2}) {
+        const Box box{x, y, w, h};
+        if (found || crossed(figure, figure.panels[i], layout, box)) continue;
+        layout.places.push_back(box);
+        found = true;
+      }
+    if (!found) return false;
+  }
+  return true;
+}
+
+std::size_t columns_for(const Figure& figure) { return figure.panels.size() > 4 ? 2 : 1; }
+
+double panel_width(std::size_t columns) {
+  const auto count = static_cast<double>(columns);
+  return (width - left - right - (count - 1) * column_gap) / count;
+}
+
+Layout layout_of(const Figure& figure, const Heading& heading, std::size_t legend_lines) {
+  Layout layout;
+  const std::size_t count = figure.panels.size();
+  layout.columns = columns_for(figure);
+  layout.rows = (count + layout.columns - 1) / layout.columns;
+  const auto rows = static_cast<double>(layout.rows);
+  layout.panel_width = panel_width(layout.columns);
+  layout.panel_height = count == 1 ? 360 : count == 2 ? 230 : layout.columns == 2 ? 165 : 175;
+  layout.legend = margin + heading.height() + 6;
+  layout.top = layout.legend + legend_line * static_cast<double>(legend_lines) + 8;
+  layout.y_max = figure.y_max;
+  std::size_t most = 1;
+  for (const Figure::Panel& panel : figure.panels) {
+    layout.labels.push_back(lines_of(label_of(panel), layout.panel_width - 24, label_char));
+    most = std::max(most, layout.labels.back().size());
+  }
+  if (!place_labels(figure, layout)) {
+    // Data fill some panel: lift the axis of all, so that labels have a strip of their own above y_max.
+    const double strip = label_line * static_cast<double>(most) + 8;
+    layout.y_max = figure.y_max + (figure.y_max - figure.y_min) * strip / layout.panel_height;
+    layout.panel_height += strip;
+    layout.places.clear();
+    for (const auto& lines : layout.labels)
+      layout.places.push_back({10, 4, length_of(lines), label_line * static_cast<double>(lines.size())});
+  }
+  layout.height = layout.top + rows * layout.panel_height + (rows - 1) * row_gap + x_axis;
+  return layout;
+}
+
+/// Legend entries in the order of first mention. Lines lie under markers because the series come in that order.
+std::vector<Entry> entries_of(const Figure& figure) {
+  const double across = panel_width(columns_for(figure));
+  std::vector<Entry> entries;
+  for (const Figure::Panel& panel : figure.panels)
+    for (const Figure::Series& series : panel.series) {
+      auto entry = std::find_if(entries.begin(), entries.end(), [&](const Entry& e) {
+        return e.label == series.label && e.kind == series.kind;
+      });
+      if (entry == entries.end()) {
+        const auto nth = std::count_if(entries.begin(), entries.end(),
+                                       [&](const Entry& e) { return e.kind == series.kind; });
+        entries.push_back({series.label, series.kind, look(series.kind, static_cast<std::size_t>(nth))});
+        entry = std::prev(entries.end());
+      }
+      if (!entry->appearance.markers) continue;
+      auto interval = static_cast<std::size_t>(
+          std::ceil(static_cast<double>(series.curve.x.size()) * marker_spacing / across));
+      // Odd, so that markers do not always land on the same one of two particles in a cell.
+      if (interval > 1 && interval % 2 == 0) ++interval;
+      entry->interval = std::max(entry->interval, interval);
+    }
+  double x = left;
+  std::size_t line = 0;
+  for (Entry& entry : entries) {
+    const double needed = sample + sample_gap + static_cast<double>(characters(entry.text())) * label_char;
+    if (x > left && x + needed > width - right) x = left, ++line;
+    entry.x = x;
+    entry.line = line;
+    x += needed + entry_gap;
+  }
+  return entries;
+}
+
+// ---- the script
+
+/// A string in gnuplot's single quotes, in which nothing is expanded.
+std::string quoted(const std::string& text) {
+  std::string out = "'";
+  for (const char c : text) {
+    if (c == '\'') out += '\'';
+    out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+  }
+  return out + "'";
+}
+
+std::string ordinal(std::size_t n) {
+  const bool teen = n % 100 > 10 && n % 100 < 14;
+  const char* ending = teen ? "th" : n % 10 == 1 ? "st" : n % 10 == 2 ? "nd" : n % 10 == 3 ? "rd" : "th";
+  return fmt::format("{}{}", n, ending);
+}
+
+std::string Entry::text() const {
+  return interval > 1 ? label + " (marker at every " + ordinal(interval) + " point)" : label;
+}
+
+const char* style_of(const Entry& entry) {
+  return !entry.appearance.markers ? "lines" : entry.interval > 1 ? "linespoints" : "points";
+}
+
+/// Margins that put a plot between these pixels, counted from the upper left corner.
+std::string at_pixels(double x0, double x1, double y0, double y1, double height) {
+  return fmt::format("set lmargin at screen {:.6f}; set rmargin at screen {:.6f}\n"
+                     "set tmargin at screen {:.6f}; set bmargin at screen {:.6f}\n",
+                     x0 / width, x1 / width, 1 - y0 / height, 1 - y1 / height);
+}
+
+std::string end_mark(const Figure& figure) { return "# end of " + figure.id + "\n"; }
+
+void write_head(Gnuplot& gp, const Figure& figure, const Heading& heading, const Layout& layout,
+                const std::vector<Entry>& entries) {
+  gp << "# " << figure.id << ": stand-alone, data included; 'gnuplot " << figure.id << ".gp' writes " << figure.id
+     << ".svg beside it.\n"
+     << "set encoding utf8\n"
+     << fmt::format("set terminal svg noenhanced rounded size {:.0f},{:.0f}", width, layout.height)
+     << " font 'sans-serif,12' background rgb '#ffffff'\n"
+     << "if (!exists('output_file')) {\n"
+     << "  slash = 0\n"
+     << "  if (exists('ARG0')) { do for [i=1:strlen(ARG0)] { if (ARG0[i:i] eq '/') { slash = i } } }\n"
+     << "  output_file = (slash > 0 ? ARG0[1:slash] : '') . '" << figure.id << ".svg'\n"
+     << "}\n"
+     << "set output output_file\n\n"
+     << "# Change the looks here.\n";
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const Entry& entry = entries[i];
+    std::string style = entry.appearance.line;
+    // Markers joined by a line: a thin one, which leaves what lies beneath in sight.
+    if (entry.appearance.markers)
+      style += entry.interval > 1 ? fmt::format(" lw 0.9 pi {}", entry.interval) : " lw 1.3";
+    gp << "set style line " << i + 1 << ' ' << style << "  # " << quoted(entry.label) << '\n';
+  }
+  gp << "set style line 100 lw 0.7 lc rgb '#e4e4e4'  # grid\n"
+     << "set style line 101 lw 0.9 lc rgb '#707070'  # axes\n\n"
+     << "set multiplot\n\n"
+     << "# Title, notes, legend and axis labels: an empty plot across the page.\n"
+     << at_pixels(left, width - right, layout.legend, layout.top, layout.height)
+     << "unset border; unset tics; unset key\n";
+  const auto text = [&](const std::string& words, double x, double y, const std::string& style) {
+    gp << "set label " << quoted(words)
+       << fmt::format(" at screen {:.6f},{:.6f} {}\n", x / width, 1 - y / layout.height, style);
+  };
+  double y = margin;
+  for (const std::string& line : heading.title) {
+    text(line, left, y + 8, "left font ',16' textcolor rgb '#111111'");
+    y += title_line;
+  }
+  for (const std::string& line : heading.notes) {
+    text(line, left, y + 5, "left font ',11' textcolor rgb '#666666'");
+    y += note_line;
+  }
+  text(figure.y_label, 16, (layout.top + layout.height - x_axis) / 2,
+       "center rotate by 90 font ',12' textcolor rgb '#222222'");
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const Entry& entry = entries[i];
+    const double middle = layout.legend + legend_line * (static_cast<double>(entry.line) + 0.5);
+    const std::string at = fmt::format("{:.6f}", 1 - middle / layout.height), style = fmt::format("ls {}", i + 1);
+    if (style_of(entry) != std::string_view("points"))
+      gp << fmt::format("set arrow from screen {:.6f},{} to screen {:.6f},{} nohead {}\n", entry.x / width, at,
+                        (entry.x + sample) / width, at, style);
+    if (entry.appearance.markers)
+      gp << fmt::format("set label '' at screen {:.6f},{} point {}\n", (entry.x + sample / 2) / width, at, style);
+    text(entry.text(), entry.x + sample + sample_gap, middle, "left font ',12' textcolor rgb '#222222'");
+  }
+  gp << "plot [0:1] [0:1] NaN notitle\nunset label; unset arrow\n\n";
+}
+
+void write_panel(Gnuplot& gp, const Figure& figure, std::size_t index, const Layout& layout,
+                 const std::vector<Entry>& entries) {
+  const Figure::Panel& panel = figure.panels[index];
+  const std::size_t row = index / layout.columns, column = index % layout.columns;
+  const double x0 = left + static_cast<double>(column) * (layout.panel_width + column_gap);
+  const double y0 = layout.top + static_cast<double>(row) * (layout.panel_height + row_gap);
+  const bool lowest = index + layout.columns >= figure.panels.size();
+
+  gp << "# Panel " << index + 1 << '\n'
+     << at_pixels(x0, x0 + layout.panel_width, y0, y0 + layout.panel_height, layout.height);
+  if (index == 0)
+    gp << "set border 3 back ls 101\n"
+       << "set grid back ls 100\n"
+       << "set xtics nomirror out scale 0.5 offset 0,0.4 font ',11' textcolor rgb '#333333'\n"
+       << "set ytics nomirror out scale 0.5 font ',11' textcolor rgb '#333333'\n"
+       << fmt::format("set xrange [{}:{}]; set yrange [{}:{}]\n", figure.x_min, figure.x_max, figure.y_min,
+                      layout.y_max);
+  gp << "set format x " << (lowest ? "'%g'" : "''") << "; set format y " << (column == 0 ? "'%g'" : "''") << '\n';
+  if (lowest)
+    gp << "set label " << quoted(figure.x_label)
+       << fmt::format(" at screen {:.6f},{:.6f} center font ',12' textcolor rgb '#222222'\n",
+                      (x0 + layout.panel_width / 2) / width, 1 - (y0 + layout.panel_height + 34) / layout.height);
+  const Box& place = layout.places[index];
+  const bool to_right = place.x > layout.panel_width / 2 - place.w / 2 + 1;
+  for (std::size_t i = 0; i < layout.labels[index].size(); ++i)
+    gp << "set label " << quoted(layout.labels[index][i])
+       << fmt::format(" at screen {:.6f},{:.6f} {} front font ',12' textcolor rgb '#111111'\n",
+                      (x0 + (to_right ? place.x + place.w : place.x)) / width,
+                      1 - (y0 + place.y + label_line * (static_cast<double>(i) + 0.5)) / layout.height,
+                      to_right ? "right" : "left");
+
+  std::vector<const Figure::Series*> shown;
+  for (const Figure::Series& series : panel.series)
+    if (drawable(series)) shown.push_back(&series);
+  gp << "plot ";
+  if (shown.empty()) gp << "NaN notitle";
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    const auto entry = std::find_if(entries.begin(), entries.end(), [&](const Entry& e) {
+      return e.label == shown[i]->label && e.kind == shown[i]->kind;
+    });
+    gp << (i == 0 ? "" : ", ") << "'-' with " << style_of(*entry) << " ls " << entry - entries.begin() + 1;
+  }
+  gp << '\n';
+  for (const Figure::Series* series : shown) {
+    std::vector<std::pair<double, double>> points;
+    for (std::size_t i = 0; i < series->curve.x.size(); ++i)
+      points.emplace_back(series->curve.x[i], series->curve.y[i]);
+    gp.send1d(points);
+  }
+  gp << "unset label\n\n";
+}
+
+std::string contents(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+/// A name beside the final files that is removed on the way out.
+struct Scratch {
+  explicit Scratch(fs::path where) : path(std::move(where)) {}
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  ~Scratch() {
+    std::error_code ignored;
+    fs::remove(path, ignored);
+  }
+  fs::path path;
+};
+
+std::string script_of(const Figure& figure, const fs::path& directory) {
+  Heading heading{lines_of(figure.title, width - left - right, title_char), {}};
+  for (const std::string& note : figure.notes)
+    for (std::string& line : lines_of(note, width - left - right, note_char)) heading.notes.push_back(std::move(line));
+  const std::vector<Entry> entries = entries_of(figure);
+  const Layout layout = layout_of(figure, heading, entries.empty() ? 0 : entries.back().line + 1);
+
+  // gnuplot-iostream writes only to a file of its own and reports no failure: read back what arrived.
+  const Scratch file(directory / fmt::format(".{}.gp.{}.tmp", figure.id, ::getpid()));
+  bool good = false;
+  errno = 0;
+  try {
+    Gnuplot gp(">" + file.path.string());
+    gp << std::setprecision(16);  // 17 significant digits: enough to read the same double back
+    write_head(gp, figure, heading, layout, entries);
+    for (std::size_t i = 0; i < figure.panels.size(); ++i) write_panel(gp, figure, i, layout, entries);
+    gp << "unset multiplot\nset output\n" << end_mark(figure) << std::flush;
+    good = gp.good();
+  } catch (const std::ios_base::failure&) {
+    good = false;
+  }
+  const int error = errno;
+  std::string script = contents(file.path);
+  if (!good || !script.ends_with(end_mark(figure)))
+    throw std::runtime_error((directory / (figure.id + ".gp")).string() + ": cannot write: " +
+                             (error != 0 ? std::strerror(error) : "it came out incomplete"));
+  return script;
+}
+
+// ---- the data
+
+std::string csv_field(const std::string& text) {  // RFC 4180
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + "\"";
+}
+
+std::string csv_of(const Figure& figure) {
+  const auto meta = [](const std::string& key, std::string value) {
+    std::replace_if(value.begin(), value.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+    return "# " + key + ": " + value + "\n";
+  };
+  const auto number = [](double v) { return std::isnan(v) ? std::string("nan") : fmt::format("{}", v); };
+  std::string out = meta("figure", figure.id) + meta("title", figure.title);
+  for (const std::string& note : figure.notes) out += meta("note", note);
+  out += meta("x", figure.x_label) + meta("y", figure.y_label) + "panel,series,x,y\n";
+  for (const Figure::Panel& panel : figure.panels)
+    for (const Figure::Series& series : panel.series) {
+      const std::string start = csv_field(panel.label) + "," + csv_field(series.label) + ",";
+      for (std::size_t i = 0; i < series.curve.x.size(); ++i)
+        out += start + number(series.curve.x[i]) + "," + number(series.curve.y[i]) + "\n";
+    }
+  return out;
+}
+
+// ---- running gnuplot
+
+struct Outcome {
+  bool found = true;
+  int status = 0;  ///< as from waitpid
+  std::string words;
+};
+
+/// Runs gnuplot in `directory`, without a shell; its output and complaints are collected.
+Outcome run_gnuplot(const fs::path& directory, const std::string& script, const std::string& output) {
+  Outcome outcome;
+  std::array<int, 2> ends{};
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw std::runtime_error(std::string("pipe: ") + std::strerror(errno));
+
+  // Names hold no quotes: draw() has checked the id. -d: no start-up file of the user's may change the picture.
+  std::array<std::string, 5> words{"gnuplot", "-d", "-e", "output_file='" + output + "'", script};
+  std::array<char*, words.size() + 1> arguments{};
+  for (std::size_t i = 0; i < words.size(); ++i) arguments[i] = words[i].data();
+
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_adddup2(&actions, ends[1], 1);
+  posix_spawn_file_actions_adddup2(&actions, ends[1], 2);
+  posix_spawn_file_actions_addchdir_np(&actions, directory.c_str());
+  pid_t child = 0;
+  const int error = ::posix_spawnp(&child, "gnuplot", &actions, nullptr, arguments.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  ::close(ends[1]);
+  if (error != 0) {
+    ::close(ends[0]);
+    outcome.found = false;
+    outcome.words = std::string("gnuplot: ") + std::strerror(error);
+    return outcome;
+  }
+  std::array<char, 4096> buffer{};
+  for (ssize_t got = 0; (got = ::read(ends[0], buffer.data(), buffer.size())) != 0;) {
+    if (got > 0) outcome.words.append(buffer.data(), static_cast<std::size_t>(got));
+    if (got < 0 && errno != EINTR) break;
+  }
+  ::close(ends[0]);
+  while (::waitpid(child, &outcome.status, 0) < 0 && errno == EINTR) {
+  }
+  return outcome;
+}
+
+/// What is wrong with the run or its picture; empty if nothing.
+std::string complaint(const Outcome& outcome, const fs::path& svg) {
+  std::string wrong;
+  if (WIFSIGNALED(outcome.status))
+    wrong = fmt::format("gnuplot was killed by signal {}", WTERMSIG(outcome.status));
+  else if (WEXITSTATUS(outcome.status) != 0)
+    wrong = fmt::format("gnuplot exited with status {}", WEXITSTATUS(outcome.status));
+  else {
+    const std::string picture = contents(svg);
+    const std::size_t last = picture.find_last_not_of(" \n\r\t");
+    const bool complete = last != std::string::npos && picture.substr(0, last + 1).ends_with("</svg>") &&
+                          picture.find("<svg") != std::string::npos;
+    if (picture.empty())
+      wrong = "gnuplot wrote no picture";
+    else if (!complete)
+      wrong = "gnuplot's picture is incomplete";
+  }
+  return wrong.empty() || outcome.words.empty() ? wrong : wrong + ": " + outcome.words;
+}
+
+void check(const Figure& figure) {
+  const auto refuse = [&](const std::string& why) {
+    throw std::invalid_argument("figure '" + figure.id + "': " + why);
+  };
+  constexpr std::string_view allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.";
+  if (figure.id.empty() || figure.id.front() == '.' || figure.id.front() == '-' ||
+      figure.id.find_first_not_of(allowed) != std::string::npos)
+    refuse("an id names files: letters, digits, '_', '-' and '.', starting with a letter, digit or '_'");
+  if (figure.panels.empty()) refuse("no panels");
+  const auto range = [&](double low, double high, const char* axis) {
+    if (!std::isfinite(low) || !std::isfinite(high) || !(low < high))
+      refuse(fmt::format("{} from {} to {} is no range", axis, low, high));
+  };
+  range(figure.x_min, figure.x_max, "x");
+  range(figure.y_min, figure.y_max, "y");
+  for (const Figure::Panel& panel : figure.panels)
+    for (const Figure::Series& series : panel.series)
+      if (series.curve.x.size() != series.curve.y.size())
+        refuse(fmt::format("panel '{}', series '{}': {} x but {} y", panel.label, series.label, series.curve.x.size(),
+                           series.curve.y.size()));
+}
+
+}  // namespace
+
+Drawn draw(const Figure& figure, const fs::path& directory, std::string& message) {
+  message.clear();
+  check(figure);
+  write_file(directory / (figure.id + ".csv"), csv_of(figure));  // also creates the directory
+  write_file(directory / (figure.id + ".gp"), script_of(figure, directory));
+  const fs::path svg = directory / (figure.id + ".svg");
+  std::error_code ignored;
+  fs::remove(svg, ignored);
+
+  const Scratch unfinished(directory / fmt::format(".{}.svg.{}.tmp", figure.id, ::getpid()));
+  const Outcome outcome = run_gnuplot(directory, figure.id + ".gp", unfinished.path.filename().string());
+  if (!outcome.found) {
+    message = outcome.words;
+    return Drawn::gnuplot_missing;
+  }
+  message = complaint(outcome, unfinished.path);
+  if (!message.empty()) return Drawn::gnuplot_failed;
+  fs::rename(unfinished.path, svg);
+  return Drawn::yes;
+}
+
+}  // namespace diptych::reports

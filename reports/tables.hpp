@@ -1,0 +1,29 @@
+// Convergence tables: cost beside error, order, prediction and ratio.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reports/results.hpp"
+
+namespace diptych::reports {
+
+/// Least-squares slope of log(error) against log(h) and its standard error; the sign is kept.
+struct Fit {
+  double order = 0;
+  double standard_error = 0;  ///< NaN with two points, which leave nothing to judge the slope by
+  int levels = 0;             ///< points fitted
+};
+/// Needs at least two distinct h and positive finite errors; throws std::invalid_argument otherwise.
+Fit fit_order(const std::vector<double>& cell_sizes, const std::vector<double>& errors);
+
+/// Aligned text of at most 150 columns for the terminal: for each method, particle layout and Courant number first
+/// the cost of every mesh, then for each time and field the errors, their orders, predictions and ratios.
+std::string text_table(const Case&);
+/// One row per run, time and field, one header line with units in the names; numbers round-trip, RFC 4180 quoting
+/// with LF. A run without numbers has one row with its status and message.
+std::string csv_table(const Case&);
+/// The same tables as in the text, as a fragment to \input into a document that loads booktabs.
+std::string latex_table(const Case&);
+
+}  // namespace diptych::reports

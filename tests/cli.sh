@@ -1,0 +1,123 @@
+#!/usr/bin/env bash
+# cli.sh PROGRAM: what a user meets at the command line.
+set -uo pipefail
+program=$1
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+failures=0 checks=0
+# expect STATUS PATTERN COMMAND...: exit status and a pattern in what is printed
+expect() {
+  local status=$1 pattern=$2 out got
+  shift 2
+  out=$("$@" 2>&1)
+  got=$?
+  checks=$((checks + 1))
+  if [ "$got" -ne "$status" ] || ! grep -qE -- "$pattern" <<<"$out"; then
+    echo "expected status $status and /$pattern/, got $got from: $*"
+    echo "$out" | tail -n 15
+    failures=$((failures + 1))
+  fi
+}
+
+expect 0 'diptych [0-9.]+ \(.*GNU|Clang' "$program" --version
+expect 0 'paper' "$program" --help
+expect 14 'subcommand' "$program"
+expect 14 'doctor' "$program" doctor
+expect 14 "did you mean 'bar.step.fixed-free'" "$program" gate bar.step.fixed-fre
+expect 14 'no figure .fig99.' "$program" paper fig99
+expect 14 'cannot|No such file' "$program" run nowhere.toml
+expect 14 'not in range' "$program" gate bar.energy -j 0
+expect 0 '^DIPTYCH-VERDICT PASS gates=2/2 passed=2' "$program" gate bar.energy
+expect 0 'bar.energy/repeat: PASS' "$program" explain bar.energy/repeat
+expect 0 'shadow-energy' "$program" list bar.energy
+expect 0 'fixed–free' "$program" show bar.energy
+
+# A scene of one's own, and what happens to a gate that cannot hold.
+cat > own.toml <<'TOML'
+schema = 1
+id = "own"
+title = "My bar"
+claim = "code-verification"
+why = "to try"
+units = "SI"
+[bar]
+length = 2.0
+[material]
+model = "elastic"
+E = 2e11
+rho = 7800.0
+[supports]
+left = "free"
+right = "fixed"
+[[load]]
+at = "left"
+history = "step"
+traction = 1e6
+[model]
+features = ["elastic"]
+[exact]
+solution = "bar-wave"
+[[axes]]
+method = ["fem", "mpm-musl"]
+cells = [50, 100]
+courant = [0.5]
+[sample]
+times = { unit = "L/c", at = [0.5] }
+[[gate]]
+id = "close"
+kind = "exact"
+quantity = "stress.L1"
+max = 0.2
+reason = "a guess"
+TOML
+expect 0 'fem' "$program" run own.toml --out results
+expect 0 '"type":"run"' cat results/results.jsonl
+expect 0 'DIPTYCH-VERDICT PASS' "$program" gate own.toml
+sed 's/max = 0.2/max = 1e-9/' own.toml > strict.toml
+expect 10 'DIPTYCH-VERDICT FAIL gates=1/1 passed=0' "$program" gate strict.toml
+sed 's/rho = 7800.0/rho = -7800.0/' own.toml > negative.toml
+expect 14 'negative.toml:1[0-9].*rho.*-7800' "$program" gate negative.toml
+sed 's/^traction = /tracton = /' own.toml > typo.toml
+expect 14 'typo.toml:[0-9]+.*tracton.*traction' "$program" gate typo.toml
+sed 's/courant = \[0.5\]/courant = [1.5]/' own.toml > fast.toml
+expect 14 'above the limit' "$program" gate fast.toml
+sed 's/features = \["elastic"\]/features = ["plasticity"]/' own.toml > features.toml
+expect 14 'features' "$program" gate features.toml
+
+# Results do not depend on the number of threads (wall time aside) and are never half there.
+"$program" gate 'bar.step.*' -j1 --json one.jsonl >/dev/null 2>&1
+"$program" gate 'bar.step.*' -j2 --json two.jsonl >/dev/null 2>&1
+strip() { sed -E 's/"wall_s(econds)?":[^,}]*//g' "$1"; }
+if [ "$(strip one.jsonl | md5sum)" != "$(strip two.jsonl | md5sum)" ]; then
+  echo "one thread and two give different results"
+  failures=$((failures + 1))
+fi
+expect 12 'No such file|Not a directory|cannot' "$program" gate bar.energy --json /dev/null/x/y.jsonl
+expect 12 'space|full|cannot' "$program" gate bar.energy --json /dev/full
+expect 0 '<testcase' sh -c "'$program' gate bar.energy --junit j.xml >/dev/null 2>&1; cat j.xml"
+
+# Without gnuplot everything but the pictures is there, and it says so.
+mkdir empty
+expect 0 'gnuplot is not installed' env PATH="$work/empty" "$program" paper fig2 --out nopic
+expect 0 '' test -s nopic/paper/figures/fig2.gp
+expect 0 '' test -s nopic/paper/figures/fig2.csv
+expect 0 '' test -s nopic/paper/results.jsonl
+
+# Ctrl-C: stops soon, says what it kept, exits with a status of its own.
+sed -e 's/cells = \[50, 100\]/cells = [20000, 30000]/' own.toml > long.toml
+"$program" run long.toml --out stopped >stopped.txt 2>&1 &
+pid=$!
+sleep 1
+kill -INT "$pid"
+wait "$pid"
+status=$?
+checks=$((checks + 1))
+if [ "$status" -ne 12 ] || ! grep -q 'stopped on request' stopped.txt; then
+  echo "Ctrl-C: status $status"
+  tail -n 5 stopped.txt
+  failures=$((failures + 1))
+fi
+
+echo "$checks checks, $failures failed"
+[ "$failures" -eq 0 ]

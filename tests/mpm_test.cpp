@@ -1,0 +1,195 @@
+#include <algorithm>
+#include <boost/test/data/test_case.hpp>
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+#include "mpm/bar.hpp"
+#include "tests/scenes.hpp"
+
+using namespace diptych;
+using namespace diptych::tests;
+using mpm::Scheme;
+namespace tt = boost::test_tools;
+namespace bdata = boost::unit_test::data;
+
+namespace {
+
+constexpr std::array schemes{Scheme::usf, Scheme::usl, Scheme::musl};
+
+bool all_zero(const Field& f) {
+  return std::all_of(f.value.begin(), f.value.end(), [](double v) { return v == 0; });
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(mpm_bar)
+
+BOOST_AUTO_TEST_CASE(critical_time_steps_are_the_closed_forms) {
+  const Scene scene = step_scene();
+  const auto courant = [&](const std::vector<double>& xi, Scheme s) { return mpm::critical_time_step(scene, 50, xi, s) * 100 * 50; };
+  BOOST_TEST(courant({0.5}, Scheme::musl) == 2, tt::tolerance(1e-12));
+  BOOST_TEST(courant({0.5}, Scheme::usf) == 2, tt::tolerance(1e-12));
+  BOOST_TEST(courant({0.25, 0.75}, Scheme::musl) == std::sqrt(3), tt::tolerance(1e-12));
+  BOOST_TEST(courant({0.5}, Scheme::usl) == std::sqrt(0.5), tt::tolerance(1e-12));
+  BOOST_TEST(courant({0.25, 0.75}, Scheme::usl) == 1 / std::sqrt(1.75), tt::tolerance(1e-12));
+  BOOST_TEST(courant({0.1}, Scheme::usl) == std::sqrt(2 * 0.1 * 0.9), tt::tolerance(1e-12));
+  BOOST_TEST(courant({0.0}, Scheme::usl) == 0.0);
+  BOOST_TEST(courant({0.0}, Scheme::musl) == 1, tt::tolerance(1e-12));
+  Scene moving = scene;
+  moving.convected = true;
+  BOOST_TEST(mpm::critical_time_step(moving, 50, {0.5}, Scheme::musl) * 5000 == 1, tt::tolerance(1e-12));
+}
+
+BOOST_AUTO_TEST_CASE(musl_at_courant_two_carries_the_front_two_cells_a_step) {
+  const Record r = mpm::run(step_scene(), 20, {0.5}, Scheme::musl, steps_at(2, 20, 4));
+  for (std::size_t p = 0; p < 20; ++p) BOOST_TEST(std::abs(r.snapshots[0].stress.value[p] - (p < 12 ? 0 : 1)) < 1e-13);
+}
+
+// By hand, one step of each scheme from rest: the end node's acceleration is f/(m/2); its particle takes half of it.
+BOOST_DATA_TEST_CASE(first_step_by_hand, bdata::make({0, 1, 2}), which) {
+  const Scheme scheme = schemes[static_cast<std::size_t>(which)];
+  const double h = 0.1, dt = 0.5 * h / 100;
+  const Record r = mpm::run(step_scene(), 10, {0.5}, scheme, steps_at(0.5, 10, 1));
+  const auto& s = r.snapshots[0];
+  const double kick = scheme == Scheme::usf ? dt : dt / 2, acceleration = 1 / (h / 2);
+  BOOST_TEST(s.velocity.value[9] == kick * acceleration / 2, tt::tolerance(1e-13));
+  BOOST_TEST(s.displacement.value[9] == dt * kick * acceleration / 2, tt::tolerance(1e-13));
+  const double end_velocity = scheme == Scheme::usl ? kick * acceleration : kick * acceleration / 2;
+  const double next_velocity = scheme == Scheme::usl ? 0 : kick * acceleration / 4;
+  const double stress = scheme == Scheme::usf ? 0 : 1e4 * dt * (end_velocity - next_velocity) / h;
+  BOOST_TEST(s.stress.value[9] == stress, tt::tolerance(1e-13));
+}
+
+BOOST_DATA_TEST_CASE(no_load_gives_exactly_nothing, bdata::make({0, 1, 2}), which) {
+  const Record r = mpm::run(step_scene(0), 20, {0.3, 0.8}, schemes[static_cast<std::size_t>(which)], steps_at(0.5, 20, 300));
+  BOOST_TEST(all_zero(r.snapshots[0].stress));
+  BOOST_TEST(all_zero(r.snapshots[0].velocity));
+  BOOST_TEST(all_zero(r.snapshots[0].displacement));
+}
+
+// The patch test for any particles, also on nodes: uniform stress in equilibrium with its load stays.
+BOOST_DATA_TEST_CASE(uniform_stress_in_equilibrium_stays, bdata::make({0, 1, 2}), which) {
+  for (const std::vector<double>& xi : {std::vector{0.5}, {0.2113, 0.7887}, {0.1, 0.2, 0.9}, {0.0, 0.5, 1.0}}) {
+    Scene scene = step_scene(3);
+    scene.initial_stress = [](double) { return 3.0; };
+    const Record r = mpm::run(scene, 7, xi, schemes[static_cast<std::size_t>(which)], steps_at(0.3, 7, 1000));
+    BOOST_TEST_CONTEXT(xi.size() << " particles") {
+      for (const double sigma : r.snapshots[0].stress.value) BOOST_TEST(sigma == 3.0, tt::tolerance(1e-12));
+    }
+  }
+}
+
+BOOST_DATA_TEST_CASE(body_force_accelerates_a_free_bar_rigidly, bdata::make({0, 1, 2}), which) {
+  Scene scene;
+  scene.length = 1;
+  scene.material = material::Elastic{1e4, 2};
+  scene.body_force = [](double, double) { return 5.0; };
+  const Record r = mpm::run(scene, 10, {0.3, 0.6}, schemes[static_cast<std::size_t>(which)], steps_at(0.5, 10, 100));
+  const auto& s = r.snapshots[0];
+  for (const double v : s.velocity.value) BOOST_TEST(v == 5 * s.velocity.time, tt::tolerance(1e-11));
+  // the first half-step of USF's displacement is taken with v⁰ = 0, so it stands b Δt²/8 below ½ b t²
+  const double dt = 0.5 * 0.1 / 100, short_of = which == 0 ? 5 * dt * dt / 8 : 0;
+  for (const double u : s.displacement.value) {
+    BOOST_TEST(u == 2.5 * s.displacement.time * s.displacement.time - short_of, tt::tolerance(1e-9));
+  }
+}
+
+// Rigid flight over many cells with particles on faces: no stress, no change of velocity, whatever the scheme.
+BOOST_DATA_TEST_CASE(rigid_flight_with_particles_on_faces, bdata::make({0, 2}), which) {
+  Scene scene;
+  scene.length = 1;
+  scene.material = material::Elastic{1e4, 1};
+  scene.convected = true;
+  scene.initial_velocity = [](double) { return 16.0; };  // 0.08 of a cell each step: lands on faces
+  for (const std::vector<double>& xi : {std::vector{0.0}, {1.0}, {0.0, 0.5}, {0.5, 1.0}}) {
+    const Record r = mpm::run(scene, 10, xi, schemes[static_cast<std::size_t>(which)], steps_at(0.5, 10, 100));
+    BOOST_TEST_CONTEXT(r.message) { BOOST_REQUIRE((r.outcome == Outcome::completed)); }
+    for (const double v : r.snapshots[0].velocity.value) BOOST_TEST(v == 16.0, tt::tolerance(1e-12));
+    for (const double sigma : r.snapshots[0].stress.value) BOOST_TEST(std::abs(sigma) < 1e-9);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_bar_that_flies_off_the_grid_is_told) {
+  Scene scene;
+  scene.length = 1;
+  scene.material = material::Elastic{1e4, 1};
+  scene.convected = true;
+  scene.initial_velocity = [](double) { return 50.0; };
+  const Record r = mpm::run(scene, 10, {0.5}, Scheme::musl, steps_at(0.5, 10, 1000));
+  BOOST_TEST((r.outcome == Outcome::left_grid));
+  BOOST_TEST(r.message.find("left the grid") != std::string::npos);
+}
+
+// A bar pressed against a wall for long: particles approach the wall's node and never stop the run.
+BOOST_AUTO_TEST_CASE(particles_against_a_wall_never_stop_the_run) {
+  Scene scene = step_scene(-500);  // a twentieth of the modulus, compression
+  scene.convected = true;
+  const Record r = mpm::run(scene, 20, {0.0}, Scheme::musl, steps_at(0.4, 20, 2000));
+  BOOST_TEST_CONTEXT(r.message) { BOOST_TEST((r.outcome == Outcome::completed)); }
+}
+
+// Mass and length follow the particles: a bar stretched over twice as many cells holds the same mass and stress balance.
+BOOST_AUTO_TEST_CASE(momentum_is_conserved_while_particles_cross_cells) {
+  Scene scene;
+  scene.length = 1;
+  scene.material = material::Elastic{1e4, 1};
+  scene.convected = true;
+  scene.initial_velocity = [](double x) { return 10 * x; };
+  const Record r = mpm::run(scene, 20, {0.25, 0.75}, Scheme::musl, steps_at(0.4, 20, 500));
+  BOOST_REQUIRE((r.outcome == Outcome::completed));
+  const double start = r.ledger.front().momentum;
+  for (const LedgerLine& line : r.ledger) BOOST_REQUIRE(std::abs(line.momentum - start) < 1e-12 * start);
+}
+
+BOOST_AUTO_TEST_CASE(features_that_are_off_leave_the_bits_alone_and_take_no_memory) {
+  const Scene plain = step_scene();
+  Scene with_null_force = plain;
+  with_null_force.body_force = [](double, double) { return 0.0; };
+  Scene never_yields = plain;
+  never_yields.material = material::Hardening{1e4, 1, 2500, 1e300};
+  Scene moving = plain;
+  moving.convected = true;
+  const auto go = [](const Scene& s) { return mpm::run(s, 50, {0.25, 0.75}, Scheme::musl, steps_at(0.7, 50, 300)); };
+  const Record a = go(plain), b = go(with_null_force), c = go(never_yields), d = go(moving);
+  BOOST_TEST(a.snapshots[0].stress.value == b.snapshots[0].stress.value, tt::per_element());
+  BOOST_TEST(a.snapshots[0].stress.value == c.snapshots[0].stress.value, tt::per_element());
+  BOOST_TEST(a.work.bytes < b.work.bytes);
+  BOOST_TEST(a.work.bytes < c.work.bytes);
+  BOOST_TEST(a.work.bytes < d.work.bytes);
+  BOOST_TEST(a.features == std::vector<std::string>{"elastic"}, tt::per_element());
+  BOOST_TEST(d.features == (std::vector<std::string>{"convection", "elastic"}), tt::per_element());
+}
+
+// Eq. 16: the layer's particles together bring in the whole traction, split by their shape functions.
+BOOST_AUTO_TEST_CASE(boundary_layer_brings_in_the_whole_traction) {
+  for (const double cells : {0.5, 1.0, 2.0, 2.5}) {
+    Scene scene = step_scene();
+    scene.loads[0].transfer = Transfer::boundary_layer;
+    scene.loads[0].layer_thickness = cells * 0.1;
+    const Record r = mpm::run(scene, 10, {0.25, 0.75}, Scheme::musl, steps_at(0.5, 10, 1));
+    BOOST_TEST(r.ledger[0].momentum == 0.5 * 0.1 * 0.5 / 100, tt::tolerance(1e-12));  // f Δt/2
+    BOOST_TEST(r.features == (std::vector<std::string>{"boundary-layer", "elastic"}), tt::per_element());
+  }
+}
+
+// Central differences in disguise: particles on the nodes' side of nothing, ξ → 0 recovers FEM's magic step at Courant 1.
+BOOST_AUTO_TEST_CASE(one_particle_body_and_one_cell_run) {
+  const Record r = mpm::run(step_scene(), 1, {0.5}, Scheme::musl, steps_at(0.5, 1, 10));
+  BOOST_TEST((r.outcome == Outcome::completed));
+  BOOST_TEST(std::isfinite(r.snapshots[0].stress.value[0]));
+}
+
+BOOST_AUTO_TEST_CASE(usl_loses_energy_and_the_others_do_not) {
+  Scene scene = step_scene(0);
+  scene.loads.clear();
+  scene.initial_velocity = [](double x) { return std::sin(7.853981633974483 * x); };
+  const auto lost = [&](Scheme s) {
+    const Record r = mpm::run(scene, 50, {0.5}, s, steps_at(0.5, 50, 400));
+    return r.ledger.back().lost / r.ledger.front().kinetic;
+  };
+  BOOST_TEST(std::abs(lost(Scheme::usf)) < 1e-13);
+  BOOST_TEST(std::abs(lost(Scheme::musl)) < 1e-13);
+  BOOST_TEST(lost(Scheme::usl) > 1e-4);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,32 @@
+// Scenes that several tests use.
+#pragma once
+
+#include <cmath>
+
+#include "material/scene.hpp"
+
+namespace diptych::tests {
+
+/// The paper's bar: L = 1, E = 1e4, ρ = 1, c = 100, fixed on the left, a tensile step of 1 on the right.
+inline Scene step_scene(double traction = 1) {
+  Scene scene;
+  scene.length = 1;
+  scene.material = material::Elastic{1e4, 1};
+  scene.left = Support::fixed;
+  Load load;
+  load.end = End::right;
+  load.mean_traction = [traction](double, double) { return traction; };
+  scene.loads.push_back(load);
+  return scene;
+}
+
+/// Steps at a Courant number on `cells` cells, sampled at the end.
+inline Stepping steps_at(double courant, int cells, long steps) {
+  Stepping stepping;
+  stepping.time_step = courant * 0.01 / cells;
+  stepping.steps = steps;
+  stepping.sample_after = {steps};
+  return stepping;
+}
+
+}  // namespace diptych::tests
