@@ -47,7 +47,8 @@ std::vector<reports::Figure> make_figures(const Case& c, const std::vector<repor
   for (const FigureSpec& spec : c.figures) {
     reports::Figure figure;
     figure.id = spec.id;
-    figure.title = c.title;
+    figure.title = spec.id.rfind("fig", 0) == 0 ? fmt::format("Fig. {}. {}", spec.id.substr(3), c.title) : c.title;
+    figure.y_min = figure.y_max = 0;
     figure.x_label = fmt::format("x [{}]", c.units == "paper" ? "paper's units" : "m");
     figure.y_label = fmt::format("{} {} [{}]", spec.field, symbol_of(spec.field), unit_of(c, spec.field));
     figure.x_max = c.length;
@@ -80,7 +81,7 @@ std::vector<reports::Figure> make_figures(const Case& c, const std::vector<repor
       for (const auto& series : panel.series) widen(figure, series.curve);
       figure.panels.push_back(std::move(panel));
     }
-    const double margin = 0.05 * (figure.y_max - figure.y_min);
+    const double height = figure.y_max - figure.y_min, margin = height > 0 ? 0.05 * height : 1;
     figure.y_min -= margin;
     figure.y_max += margin;
     if (spec.range) {

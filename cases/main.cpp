@@ -1,9 +1,12 @@
 // The command line: CLI11 reads it, commands.cpp does it.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <string>
+#include <vector>
 
 #include "cases/case_file.hpp"
 #include "cases/commands.hpp"
@@ -80,6 +83,15 @@ int main(int argc, char** argv) {
   add_cases(show, true);
   show->callback([&] { status = show_command(options); });
 
+  // CLI11 would only say that some command is needed.
+  std::vector<std::string> commands;
+  for (const CLI::App* command : app.get_subcommands({})) commands.push_back(command->get_name());
+  if (argc > 1 && argv[1][0] != '-' && std::find(commands.begin(), commands.end(), argv[1]) == commands.end()) {
+    const std::string near = nearest(argv[1], commands);
+    std::fprintf(stderr, "no command '%s'%s; 'diptych --help' names them\n", argv[1],
+                 near.empty() ? "" : (" (did you mean '" + near + "'?)").c_str());
+    return usage;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -133,7 +133,8 @@ void measure_bits(const Case& c, const Leaf& leaf, const Scene& scene, const Ste
 }
 
 /// Largest Courant number, to one part in a thousand, at which the scene stays bounded for the given number of steps.
-/// The bracket reaches from a quarter of the predicted limit to four times it and closes without looking at it again.
+/// The bracket opens around the predicted limit until one end is stable and the other is not, and closes without looking
+/// at the prediction again. NaN where no such bracket is found.
 double bisect_limit(const Scene& scene, const Leaf& leaf, double predicted, long steps) {
   const auto stable = [&](double courant) {
     Stepping trial;
@@ -141,7 +142,9 @@ double bisect_limit(const Scene& scene, const Leaf& leaf, double predicted, long
     trial.steps = steps;
     return solve(scene, leaf, trial).outcome == Outcome::completed;
   };
-  double low = predicted / 4, high = predicted * 4;
+  double low = predicted / 2, high = predicted * 2;
+  for (int wider = 0; wider < 6 && !stable(low); ++wider) low /= 2;
+  for (int wider = 0; wider < 6 && stable(high); ++wider) high *= 2;
   if (!stable(low) || stable(high)) return std::nan("");
   while (high - low > 1e-3 * high) {
     const double middle = (low + high) / 2;
@@ -160,8 +163,9 @@ void measure_limit(const Case& c, const Leaf& leaf, const Scene& scene, reports:
   }
 }
 
-reports::Curve polyline(const Field& field) {
-  if (field.edges.empty()) return {field.x, field.value};
+/// As the method knows the field: an element's stress over the element, a particle's at the particle.
+reports::Curve polyline(const Field& field, const Leaf& leaf) {
+  if (field.edges.empty() || leaf.method != "fem") return {field.x, field.value};
   reports::Curve curve;
   for (std::size_t i = 0; i < field.value.size(); ++i) {
     curve.x.insert(curve.x.end(), {field.edges[i], field.edges[i + 1]});
@@ -174,8 +178,11 @@ reports::Curve polyline(const Field& field) {
 reports::Curve exact_line(const analytic::ExactSolution& exact, Quantity q, double length, double time) {
   std::vector<double> xs;
   for (int i = 0; i <= 400; ++i) xs.push_back(length * i / 400);
-  for (const analytic::Front& front : exact.fronts(time)) {
-    for (const double side : {-1e-9, 1e-9}) xs.push_back(std::clamp(front.position + side * length, 0.0, length));
+  const auto fronts = exact.fronts(time);
+  for (std::size_t i = 0; i < fronts.size(); ++i) {
+    const auto near = [&](std::size_t j) { return std::abs(fronts[i].position - fronts[j].position) < 1e-6 * length; };
+    if ((i > 0 && near(i - 1)) || (i + 1 < fronts.size() && near(i + 1))) continue;  // they pass each other just now
+    for (const double side : {-1e-9, 1e-9}) xs.push_back(std::clamp(fronts[i].position + side * length, 0.0, length));
   }
   std::sort(xs.begin(), xs.end());
   reports::Curve curve;
@@ -204,7 +211,7 @@ reports::Sample measure_sample(const Case& c, const Leaf& leaf, const Snapshot& 
   for (const auto& [q, name] : quantities) {
     const Field& field = field_of(snapshot, q);
     if (drawn(c, leaf)) {
-      sample.curves[name] = polyline(field);
+      sample.curves[name] = polyline(field, leaf);
       if (exact && exact->gives(q)) sample.exact_curves[name] = exact_line(*exact, q, c.length, field.time);
     }
     if (!exact || !exact->gives(q)) continue;

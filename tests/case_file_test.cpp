@@ -623,7 +623,7 @@ BOOST_AUTO_TEST_CASE(solutions_hold_for_the_scene) {
                               "probe.end\"\npredict = \"end-equilibrium\"")) == "");
   expect_alone(
       replaced(text, "displacement.L2\"\npredict = \"airy-step\"", "stress.L2\"\npredict = \"end-equilibrium\""),
-      "predict = \"boundary", {"\"stress.L2\"", "probes of stress"});
+      "predict = \"end-eq", {"\"stress.L2\"", "probes of stress"});
 }
 
 BOOST_AUTO_TEST_CASE(gates) {

@@ -23,7 +23,7 @@ expect() {
 expect 0 'diptych [0-9.]+ \(.*GNU|Clang' "$program" --version
 expect 0 'paper' "$program" --help
 expect 14 'subcommand' "$program"
-expect 14 'doctor' "$program" doctor
+expect 14 "no command 'gaet' \(did you mean 'gate'" "$program" gaet
 expect 14 "did you mean 'bar.step.fixed-free'" "$program" gate bar.step.fixed-fre
 expect 14 'no figure .fig99.' "$program" paper fig99
 expect 14 'cannot|No such file' "$program" run nowhere.toml
