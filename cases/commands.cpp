@@ -29,22 +29,22 @@ int threads_of(const Options& options) {
 }
 
 /// A bar on a terminal, a plain line every quarter of the way elsewhere; on standard error, so results stay clean.
-Progress progress() {
+std::function<void(std::size_t, std::size_t)> progress() {
   if (isatty(STDERR_FILENO)) {
     auto bar = std::make_shared<std::unique_ptr<boost::timer::progress_display>>();
-    return {[bar](std::size_t done, std::size_t total) {
+    return [bar](std::size_t done, std::size_t total) {
       if (!*bar) *bar = std::make_unique<boost::timer::progress_display>(total, std::cerr);
       **bar += done - (*bar)->count();
-    }};
+    };
   }
-  return {[](std::size_t done, std::size_t total) {
+  return [](std::size_t done, std::size_t total) {
     if (done == total || done * 4 / total != (done - 1) * 4 / total) fmt::print(stderr, "{} of {} runs\n", done, total);
-  }};
+  };
 }
 
 /// Runs, judges every gate and makes the figures.
 std::vector<reports::Case> measure(const std::vector<Case>& cases, const Options& options, const std::atomic<bool>& cancelled) {
-  auto results = run_cases(cases, threads_of(options), &cancelled, progress());
+  auto results = run_cases(cases, {threads_of(options), &cancelled, options.ledger, progress()});
   for (std::size_t i = 0; i < cases.size(); ++i) {
     for (const GateSpec& gate : cases[i].gates) results[i].gates.push_back(judge(cases[i], gate, results[i].runs));
     results[i].figures = make_figures(cases[i], results[i].runs);
@@ -86,6 +86,15 @@ void write_tables(const reports::Case& result, const std::filesystem::path& dire
   reports::write_file(directory / (result.id + ".txt"), reports::text_table(result));
   reports::write_file(directory / (result.id + ".csv"), reports::csv_table(result));
   reports::write_file(directory / (result.id + ".tex"), reports::latex_table(result));
+}
+
+void write_ledgers(const reports::Case& result, const std::filesystem::path& directory) {
+  for (const auto& run : result.runs) {
+    std::string name = run.label();
+    std::replace(name.begin(), name.end(), ' ', '_');
+    reports::write_file(directory / (name + ".csv"), reports::ledger_csv(run));
+  }
+  fmt::print("{}\n", directory.string());
 }
 
 /// Draws every figure whose id is wanted (all for an empty list); returns how many pictures could not be drawn.
@@ -151,6 +160,7 @@ int run_command(const Options& options, const std::atomic<bool>& cancelled) {
   for (const auto& result : results) {
     fmt::print("{}\n", reports::text_table(result));
     write_tables(result, options.out / "tables");
+    if (options.ledger) write_ledgers(result, options.out / "ledgers" / result.id);
   }
   const int undrawn = draw_figures(results, options.out / "figures", {});
   reports::write_file(options.out / "results.jsonl", reports::results_jsonl(results, provenance()));

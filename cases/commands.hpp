@@ -15,6 +15,7 @@ struct Options {
   int threads = 0;  ///< 0: all there are
   bool quick = false;
   bool declarations = false;
+  bool ledger = false;
 };
 
 int run_command(const Options&, const std::atomic<bool>& cancelled);

@@ -58,6 +58,7 @@ int main(int argc, char** argv) {
   auto* run = app.add_subcommand("run", "run cases and print convergence tables");
   add_cases(run, true);
   add_out(run);
+  run->add_flag("--ledger", options.ledger, "also write every step's energies, work, loss and momentum (CSV)");
   add_threads(run);
   run->callback([&] { status = run_command(options, cancelled); });
 

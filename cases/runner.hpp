@@ -12,19 +12,22 @@
 
 namespace diptych::cases {
 
+/// How to run, as against what.
+struct Running {
+  int threads = 1;
+  const std::atomic<bool>* cancelled = nullptr;  ///< turns true where runs should stop soon
+  bool keep_ledger = false;                      ///< keep every step's line of the ledger in the results
+  std::function<void(std::size_t done, std::size_t total)> progress = {};  ///< after each run, from one thread at a time
+};
+
 /// One run of a leaf's scene, measured: errors, predictions, ledger, invariants and limits that the case's gates ask for.
-reports::Run run_leaf(const Case&, const Leaf&, const std::atomic<bool>* cancelled = nullptr);
+reports::Run run_leaf(const Case&, const Leaf&, const Running& = {});
 
 /// Throws InputError where a leaf asks for a Courant number above the method's limit and the case does not allow it.
 void refuse_unstable(const Case&);
 
-struct Progress {
-  std::function<void(std::size_t done, std::size_t total)> step;  ///< called after each run, from one thread at a time
-};
-
-/// Runs all leaves of all cases on `threads` threads. Runs not begun when `cancelled` turns true are left out with
-/// status "cancelled"; finished ones stay.
-std::vector<reports::Case> run_cases(const std::vector<Case>&, int threads, const std::atomic<bool>* cancelled,
-                                     const Progress&);
+/// Runs all leaves of all cases. Runs not begun when `cancelled` turns true are left out with status "cancelled";
+/// finished ones stay. A case whose exact solution fails its own test has only runs that cannot be judged.
+std::vector<reports::Case> run_cases(const std::vector<Case>&, const Running&);
 
 }  // namespace diptych::cases

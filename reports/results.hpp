@@ -13,7 +13,7 @@ namespace diptych::reports {
 /// Error of one field at one time, divided by the field's scale.
 struct FieldError {
   std::string field;  ///< "stress", "velocity", "displacement"
-  double time = 0;    ///< the field's own time level [case units]
+  double time = 0;    ///< the field's own time level [the case's unit of time]
   double scale = 0;   ///< what the error was divided by [case units]
   double l1 = 0, l2 = 0, linf = 0;  ///< mean norms over the bar: L1 ≤ L2 ≤ L∞
   std::optional<double> predicted_l1, predicted_l2, predicted_linf;  ///< from theory, divided by the same scale
@@ -34,11 +34,16 @@ struct Curve {
 
 struct Sample {
   double asked = 0;     ///< requested time in the case's unit of time, as written there
-  double time = 0;      ///< time reached at the nearest step [case units]
+  double time = 0;      ///< time reached at the nearest step [the same]
   std::vector<FieldError> errors;
   std::vector<ProbeValue> probes;
   std::map<std::string, Curve> curves;        ///< field -> numerical field (filled only where a figure asks)
   std::map<std::string, Curve> exact_curves;  ///< field -> exact field on a fine line
+};
+
+/// One line of a run's energy and momentum ledger, in case units; the fields are those of the solvers' books.
+struct LedgerLine {
+  double time, kinetic, strain, dissipated, work, lost, momentum, impulse;
 };
 
 struct Run {
@@ -61,6 +66,7 @@ struct Run {
   std::string invalid;                     ///< why this run cannot be judged, empty if it can
   std::map<std::string, double> measures;  ///< per-run quantities: "energy.drift", "momentum.drift", "bits.mirror", ...
   std::vector<Sample> samples;
+  std::vector<LedgerLine> ledger;          ///< every step, filled only where it is asked for
   /// "mpm-musl N=200 C=0.5 ppc=1"; particles that are not evenly spaced add their positions, "ppc=1@0.3".
   std::string label() const;
 };

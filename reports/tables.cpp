@@ -141,7 +141,6 @@ std::string span(const std::vector<double>& values) {
 /// Unit of a quantity in the case's system. Cases in the paper's own units have no names for them.
 std::string unit(const Case& data, const std::string& quantity) {
   if (data.units != "SI") return (data.units.empty() ? "case" : data.units) + " units";
-  if (quantity == "time") return "s";
   if (quantity == "stress") return "Pa";
   if (quantity == "velocity") return "m/s";
   return "m";
@@ -225,12 +224,12 @@ Grid error_grid(const Case& data, const Group& group, double asked, const std::s
     }
 
   Grid grid;
-  grid.title = fmt::format("{} at t = {} {} (asked), {} {} (reached){}; errors divided by {} {}", field, asked,
-                           data.time_unit, span(reached), unit(data, "time"),
-                           own == reached ? "" : fmt::format(", {0} at its own level {1} {2}", field, span(own),
-                                                             unit(data, "time")),
+  const bool exactly = span(reached) == span({asked});
+  grid.title = fmt::format("{} at t = {} {}{}{}; errors divided by {} {}", field, asked, data.time_unit,
+                           exactly ? "" : fmt::format(" (reached {})", span(reached)),
+                           own == reached ? "" : fmt::format(", {} at its own level {}", field, span(own)),
                            span(scales), unit(data, field));
-  grid.heads = {"cells", "h [" + unit(data, "length") + "]", "t [" + unit(data, "time") + "]"};
+  grid.heads = {"cells", "h [" + unit(data, "length") + "]", "t [" + data.time_unit + "]"};
   for (std::size_t n = 0; n < norms.size(); ++n) {
     grid.heads.insert(grid.heads.end(), {norms[n].name, "order"});
     if (predicted[n]) grid.heads.insert(grid.heads.end(), {"predicted", "ratio"});
@@ -456,7 +455,7 @@ std::string latex_table(const Case& data) {
 }
 
 std::string csv_table(const Case& data) {
-  const std::string length = "[" + unit(data, "length") + "]", time = "[" + unit(data, "time") + "]";
+  const std::string length = "[" + unit(data, "length") + "]", time = "[" + data.time_unit + "]";
   std::string out = csv_line({"case", "method", "particles", "cells", "h " + length, "unknowns", "courant asked [-]",
                               "courant used [-]", "time step " + time, "time step limit " + time, "steps",
                               "element steps", "particle steps", "node steps", "bytes [B]", "wall time [s]", "status",
@@ -503,6 +502,15 @@ std::string csv_table(const Case& data) {
       }
       coarse = run;
     }
+  }
+  return out;
+}
+
+std::string ledger_csv(const Run& run) {
+  std::string out = "time,kinetic,strain,dissipated,work,lost,momentum,impulse\n";
+  for (const LedgerLine& line : run.ledger) {
+    out += fmt::format("{},{},{},{},{},{},{},{}\n", line.time, line.kinetic, line.strain, line.dissipated, line.work,
+                       line.lost, line.momentum, line.impulse);
   }
   return out;
 }

@@ -26,4 +26,7 @@ std::string csv_table(const Case&);
 /// The same tables as in the text, as a fragment to \input into a document that loads booktabs.
 std::string latex_table(const Case&);
 
+/// One line a step: energies, work, loss, momentum, impulse [case units].
+std::string ledger_csv(const Run&);
+
 }  // namespace diptych::reports

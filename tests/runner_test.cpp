@@ -34,7 +34,7 @@ BOOST_AUTO_TEST_SUITE(runner)
 
 BOOST_AUTO_TEST_CASE(any_number_of_threads_gives_the_same_bits) {
   const std::vector<Case> cases{by_id("bar.step.free-free"), by_id("bar.mode.fixed-free")};
-  const auto one = run_cases(cases, 1, nullptr, {}), four = run_cases(cases, 4, nullptr, {});
+  const auto one = run_cases(cases, {1}), four = run_cases(cases, {4});
   std::size_t compared = 0;
   for (std::size_t c = 0; c < cases.size(); ++c) {
     for (std::size_t r = 0; r < one[c].runs.size(); ++r, ++compared) {
@@ -48,7 +48,7 @@ BOOST_AUTO_TEST_CASE(a_step_above_the_limit_is_refused_with_both_numbers) {
   Case c = by_id("bar.step.free-free");
   c.axes[0].courant = {1.25};
   try {
-    run_cases({c}, 1, nullptr, {});
+    run_cases({c}, {});
     BOOST_FAIL("was not refused");
   } catch (const InputError& error) {
     const std::string said = error.what();
@@ -85,8 +85,18 @@ BOOST_AUTO_TEST_CASE(two_sample_times_on_one_step_make_a_run_invalid) {
 
 BOOST_AUTO_TEST_CASE(runs_not_begun_when_asked_to_stop_are_left_out) {
   const std::atomic<bool> cancelled{true};
-  const auto results = run_cases({by_id("bar.step.free-free")}, 2, &cancelled, {});
+  const auto results = run_cases({by_id("bar.step.free-free")}, {2, &cancelled});
   for (const auto& run : results[0].runs) BOOST_TEST(run.status == "cancelled");
+}
+
+BOOST_AUTO_TEST_CASE(the_ledger_is_kept_where_it_is_asked_for) {
+  const Case c = by_id("bar.energy");
+  const Leaf leaf = leaves(c).at(0);
+  BOOST_TEST(run_leaf(c, leaf).ledger.empty());
+  Running running;
+  running.keep_ledger = true;
+  const auto run = run_leaf(c, leaf, running);
+  BOOST_TEST(run.ledger.size() == static_cast<std::size_t>(run.steps));
 }
 
 BOOST_AUTO_TEST_CASE(every_case_that_comes_with_the_program_is_locked) {
