@@ -1,13 +1,14 @@
 # Planted defects. Each takes one file of the solvers, replaces one piece of text, and builds the whole program from it:
 # no hook for it stands in the code. The gates that it must fail are named; together they must be all gates there are.
+# A defect of the oracle that its self-test finds makes its gates INVALID instead.
 #
-#   mutant(NAME FILE file FIND text REPLACE text KILLS gate...)
+#   mutant(NAME FILE file FIND text REPLACE text [VERDICT INVALID] KILLS gate...)
 
 set(killed_list ${CMAKE_CURRENT_BINARY_DIR}/killed.txt)
 file(WRITE ${killed_list} "")
 
 function(mutant name)
-  cmake_parse_arguments(PARSE_ARGV 1 M "" "FILE;FIND;REPLACE" "KILLS")
+  cmake_parse_arguments(PARSE_ARGV 1 M "" "FILE;FIND;REPLACE;VERDICT" "KILLS")
   set(source ${PROJECT_SOURCE_DIR}/${M_FILE})
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${source})
   file(READ ${source} text)
@@ -29,20 +30,22 @@ function(mutant name)
   set(target mutant_${name})
   add_executable(${target} $<TARGET_OBJECTS:diptych_main>)
   target_include_directories(${target} BEFORE PRIVATE ${folder})
-  foreach(method fem mpm)
-    if(EXISTS ${folder}/${method}/bar.cpp)
-      target_sources(${target} PRIVATE ${folder}/${method}/bar.cpp)
-    elseif(M_FILE MATCHES "^material/")
-      target_sources(${target} PRIVATE ${PROJECT_SOURCE_DIR}/${method}/bar.cpp)
-    endif()
-  endforeach()
+  if(M_FILE MATCHES "[.]cpp$")
+    target_sources(${target} PRIVATE ${mutated})
+  else()  # a header of the materials
+    target_sources(${target} PRIVATE ${PROJECT_SOURCE_DIR}/fem/bar.cpp ${PROJECT_SOURCE_DIR}/mpm/bar.cpp)
+  endif()
   # What the defect's own objects define, the libraries' are not asked for.
   target_link_libraries(${target} PRIVATE diptych_cases diptych_fem diptych_mpm)
   target_compile_options(${target} PRIVATE -O1 -Wno-error)
 
-  string(REPLACE ";" "\n" lines "${M_KILLS}")
-  file(APPEND ${killed_list} "${lines}\n")
-  add_test(NAME teeth.${name} COMMAND ${PROJECT_SOURCE_DIR}/tests/teeth.sh $<TARGET_FILE:${target}> ${M_KILLS})
+  if(NOT M_VERDICT)
+    set(M_VERDICT FAIL)
+    string(REPLACE ";" "\n" lines "${M_KILLS}")
+    file(APPEND ${killed_list} "${lines}\n")
+  endif()
+  add_test(NAME teeth.${name}
+    COMMAND ${PROJECT_SOURCE_DIR}/tests/teeth.sh $<TARGET_FILE:${target}> ${M_VERDICT} ${M_KILLS})
   set_tests_properties(teeth.${name} PROPERTIES LABELS teeth TIMEOUT 120)
 endfunction()
 
@@ -225,6 +228,19 @@ mutant(mpm-damps-from-the-grid FILE mpm/bar.cpp
   FIND    "node.velocity += kick * node.acceleration;"
   REPLACE "node.velocity += kick * node.acceleration; node.acceleration *= 0.9999;"
   KILLS bar.energy/shadow-energy bar.step.free-free/energy bar.impulse.free-free/energy bar.step.fixed-free/musl-constant)
+
+# --- the oracle ---------------------------------------------------------------------------------------------------------
+
+mutant(oracle-modulus FILE cases/build.cpp
+  FIND    "analytic::BarWave::Parameters{E, rho"
+  REPLACE "analytic::BarWave::Parameters{1.01 * E, rho"
+  KILLS bar.step.fixed-free/fem-magic-step bar.step.fixed-free/musl-magic-step bar.step.fixed-free/fem-constant
+        bar.step.fixed-free/usl-constant bar.step.free-free/constant bar.impulse.free-free/musl-magic-step)
+mutant(oracle-takes-a-wall-for-a-free-end FILE analytic/bar_wave.cpp
+  FIND    "return end.fixed ? +1 : -1;"
+  REPLACE "return end.fixed ? -1 : -1;"
+  VERDICT INVALID
+  KILLS bar.step.fixed-free/fem-magic-step bar.step.fixed-free/fem-constant)
 
 add_test(NAME teeth.coverage
   COMMAND ${PROJECT_SOURCE_DIR}/tests/coverage.sh $<TARGET_FILE:diptych> ${killed_list})

@@ -1,18 +1,19 @@
 #!/usr/bin/env bash
-# teeth.sh PROGRAM GATE...: a program with a planted defect must fail each of these gates, by a number and not by a crash.
+# teeth.sh PROGRAM VERDICT GATE...: a program with a planted defect must give each of these gates that verdict: FAIL, by a
+# number and not by a crash, or INVALID.
 set -uo pipefail
-program=$1
-shift
+program=$1 verdict=$2
+shift 2
 out=$("$program" gate "$@" 2>&1)
 status=$?
 survived=0
 for gate in "$@"; do
-  if ! grep -q "^FAIL  *$gate " <<<"$out"; then
-    echo "not failed: $gate"
+  if ! grep -q "^$verdict  *$gate " <<<"$out"; then
+    echo "not $verdict: $gate"
     survived=1
   fi
 done
-if [ "$status" -ne 10 ] || [ "$survived" -ne 0 ]; then
+if [ "$status" -eq 0 ] || ! grep -q "^DIPTYCH-VERDICT $verdict " <<<"$out" || [ "$survived" -ne 0 ]; then
   echo "exit status $status"
   echo "$out"
   exit 1
