@@ -6,7 +6,8 @@
 namespace diptych::analytic {
 
 double end_stress_share(const std::vector<double>& distances, double thickness) {
-  if (distances.empty() || !(thickness > 0)) throw std::invalid_argument("a boundary layer needs particles and a thickness > 0");
+  if (distances.empty() || !(thickness > 0))
+    throw std::invalid_argument("a boundary layer needs particles and a thickness > 0");
   const double piece = 1 / static_cast<double>(distances.size());  // of the cell, one particle's share
   double share = 0;
   for (std::size_t p = 0; p < distances.size(); ++p) {

@@ -19,8 +19,8 @@ constexpr double pi = std::numbers::pi;
 // A scheme without dissipation obeys u_t + c u_x + β u_xxx = 0, β = c h² (1 + 3a − C²)/24, to leading order. Its answer
 // to a step is ∫_ξ^∞ Ai, ξ = (x − ct)/w, w = (3βt)^(1/3) (Hedstrom, SIAM J. Numer. Anal. 12, 1975; Chin & Hedstrom,
 // Math. Comp. 32, 1978). By Parseval the squares of the error and of its integral over x are, in units of w and w³,
-// (4/π)∫₀^∞ sin²(κ³/6) κ⁻² dκ = 3^(1/6) Γ(2/3)/π and (4/π)∫₀^∞ sin²(κ³/6) κ⁻⁴ dκ = 1/9; that integral has its largest value,
-// −Ai′(0) = 1/(3^(1/3) Γ(1/3)), on the front.
+// (4/π)∫₀^∞ sin²(κ³/6) κ⁻² dκ = 3^(1/6) Γ(2/3)/π and (4/π)∫₀^∞ sin²(κ³/6) κ⁻⁴ dκ = 1/9; that integral has its largest
+// value, −Ai′(0) = 1/(3^(1/3) Γ(1/3)), on the front.
 constexpr double airy_step_square = 0.5176388075856136;
 constexpr double airy_kink_square = 1.0 / 9;
 constexpr double airy_kink_sup = 0.25881940379280680;
@@ -214,7 +214,8 @@ std::optional<double> airy_step_error(const ExactSolution& solution, const Discr
   double square_sum = 0, sup = 0;
   for (const auto& front : *fronts) {
     const double w = front_width(d, front.travelled), strain = std::abs(front.stress_jump) / p.youngs_modulus;
-    square_sum += stress ? airy_step_square * w * square(front.stress_jump) : airy_kink_square * w * w * w * square(strain);
+    square_sum +=
+        stress ? airy_step_square * w * square(front.stress_jump) : airy_kink_square * w * w * w * square(strain);
     sup = std::max(sup, airy_kink_sup * strain * w);
   }
   return norm == Norm::l2 ? std::sqrt(square_sum / p.length) : sup;

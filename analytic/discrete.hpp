@@ -43,9 +43,9 @@ double stability_limit(const Discretisation&);
 double front_width(const Discretisation&, double travelled);
 
 /// Leading-order error of steps and impulses by Airy scaling, w the width of a front: stress L2 σ₀ (0.517639 w/L)^½,
-/// displacement L2 (σ₀/E) w^{3/2}/(3 √L) and L∞ 0.258819 (σ₀/E) w, fronts adding in quadrature (L∞: the widest). Good to
-/// 5 % (L∞ a sixth) at 200 cells. Nothing for USL, ramps and other norms, and where two fronts are within 10 widths of
-/// each other, or one is within 6 of an end or of where it entered, or narrower than a cell.
+/// displacement L2 (σ₀/E) w^{3/2}/(3 √L) and L∞ 0.258819 (σ₀/E) w, fronts adding in quadrature (L∞: the widest). Good
+/// to 5 % (L∞ a sixth) at 200 cells. Nothing for USL, ramps and other norms, and where two fronts are within 10 widths
+/// of each other, or one is within 6 of an end or of where it entered, or narrower than a cell.
 std::optional<double> airy_step_error(const ExactSolution&, const Discretisation&, Quantity, Norm, double t);
 
 /// Predicted norm of the error at time t, (∫|e|^p dx / L)^(1/p) over the bar, or nothing where there is no theory for

@@ -64,7 +64,8 @@ std::function<double(double)> mode_velocity(const Case& c) {
   return [=](double x) { return amplitude * (left ? std::sin(k * x) : std::cos(k * x)); };
 }
 
-/// An exact solution given as expressions of x and t. Its scale is the largest value met on a grid over the bar and the time.
+/// An exact solution given as expressions of x and t. Its scale is the largest value met on a grid over the bar and the
+/// time.
 class ExpressionSolution final : public analytic::ExactSolution {
  public:
   explicit ExpressionSolution(const Case& c) {
@@ -105,7 +106,8 @@ analytic::BarEnd bar_end(const Case& c, End end) {
       out.traction = analytic::Traction::ramp(load.traction, load.rise.value * time_unit(c, load.rise.unit), start);
     }
     if (load.history == "impulse") {
-      out.traction = analytic::Traction::impulse(load.traction, load.duration.value * time_unit(c, load.duration.unit), start);
+      out.traction =
+          analytic::Traction::impulse(load.traction, load.duration.value * time_unit(c, load.duration.unit), start);
     }
   }
   return out;
@@ -179,10 +181,14 @@ Scene scaled(const Scene& scene, const PowersOfTwo& by) {
   const double T = by.time();
   for (Load& load : out.loads) {
     load.layer_thickness *= by.length;
-    load.mean_traction = [=, f = load.mean_traction](double from, double to) { return by.stress * f(from / T, to / T); };
+    load.mean_traction = [=, f = load.mean_traction](double from, double to) {
+      return by.stress * f(from / T, to / T);
+    };
   }
   if (scene.body_force) {
-    out.body_force = [=, f = scene.body_force](double x, double t) { return by.velocity() / T * f(x / by.length, t / T); };
+    out.body_force = [=, f = scene.body_force](double x, double t) {
+      return by.velocity() / T * f(x / by.length, t / T);
+    };
   }
   if (scene.initial_velocity) {
     out.initial_velocity = [=, f = scene.initial_velocity](double x) { return by.velocity() * f(x / by.length); };

@@ -27,8 +27,8 @@ analytic::Discretisation discretisation(const Case&, const Leaf&, double courant
 /// All lengths, times and stresses multiplied by powers of two: a run must answer with the same bits, scaled.
 struct PowersOfTwo {
   double length = 2, modulus = 4, density = 16, stress = 32;  // so that no derived factor is 1
-  double time() const;      ///< length·√(density/modulus)
-  double velocity() const;  ///< stress/√(modulus·density)
+  double time() const;                                        ///< length·√(density/modulus)
+  double velocity() const;                                    ///< stress/√(modulus·density)
   double displacement() const { return stress * length / modulus; }
 };
 Scene scaled(const Scene&, const PowersOfTwo&);

@@ -22,12 +22,12 @@ struct Measured {
 
 struct LoadSpec {
   End end = End::right;
-  std::string history;       ///< "step", "ramp", "impulse" or "expression"
-  double traction = 0;       ///< amplitude, tension positive (not for "expression")
-  Measured start{0, "s"};    ///< when it begins, ≥ 0
-  Measured rise;             ///< ramp: > 0
-  Measured duration;         ///< impulse: > 0
-  std::string expression;    ///< of t (and parameters), for "expression"
+  std::string history;     ///< "step", "ramp", "impulse" or "expression"
+  double traction = 0;     ///< amplitude, tension positive (not for "expression")
+  Measured start{0, "s"};  ///< when it begins, ≥ 0
+  Measured rise;           ///< ramp: > 0
+  Measured duration;       ///< impulse: > 0
+  std::string expression;  ///< of t (and parameters), for "expression"
   Transfer transfer = Transfer::node;
   Measured layer_thickness;  ///< boundary layer: > 0, unit "cells", "m" or "L"
 };
@@ -35,16 +35,16 @@ struct LoadSpec {
 struct ExactSpec {
   /// "bar-wave" (steps, ramps and impulses on the ends, from rest), "standing-mode", "expressions" or "none".
   std::string solution = "none";
-  int mode = 1;              ///< standing-mode
-  double amplitude = 0;      ///< standing-mode [length]
+  int mode = 1;                                ///< standing-mode
+  double amplitude = 0;                        ///< standing-mode [length]
   std::string stress, velocity, displacement;  ///< expressions of x and t; an empty one is not compared
 };
 
 /// Values of the swept axes; every combination is a run (FEM ignores `particles`: one run for all of them).
 struct Axes {
-  std::vector<std::string> method;      ///< "fem", "mpm-usf", "mpm-usl", "mpm-musl"
-  std::vector<int> cells;               ///< ≥ 1
-  std::vector<double> courant;          ///< > 0
+  std::vector<std::string> method;                    ///< "fem", "mpm-usf", "mpm-usl", "mpm-musl"
+  std::vector<int> cells;                             ///< ≥ 1
+  std::vector<double> courant;                        ///< > 0
   std::vector<std::vector<double>> particles{{0.5}};  ///< natural coordinates ξ in [0, 1], ascending, at least one
 };
 
@@ -68,22 +68,22 @@ struct GateSpec {
   std::string quantity;  ///< see cases/README.md
   std::string reason;    ///< why this tolerance
   Where where;
-  std::vector<double> times;          ///< subset of the sample times; empty: all
-  std::optional<double> max;          ///< exact, invariant: |value| ≤ max (exact: in units of the field's scale)
+  std::vector<double> times;  ///< subset of the sample times; empty: all
+  std::optional<double> max;  ///< exact, invariant: |value| ≤ max (exact: in units of the field's scale)
   std::optional<std::array<double, 2>> ratio;  ///< constant, limit: measured / predicted within, inclusive
-  std::string predict;                ///< constant, limit: name of the theory
-  std::optional<double> expect;       ///< order: must agree with theory where there is one
+  std::string predict;                         ///< constant, limit: name of the theory
+  std::optional<double> expect;                ///< order: must agree with theory where there is one
   std::optional<std::array<double, 2>> band;   ///< order: allowed slope, inclusive
-  int levels_min = 4;                 ///< order: least number of meshes
-  std::string outcome;                ///< limit: "unstable" where the runs must be detected as unstable
-  long steps = 2000;                  ///< limit: steps of each trial of the bisection
-  bool slow = false;                  ///< left out by --quick, and then reported as left out
-  int line = 0;                       ///< of its declaration
-  std::string declaration;            ///< its own keys and values in one canonical line, for gates.lock
+  int levels_min = 4;                          ///< order: least number of meshes
+  std::string outcome;                         ///< limit: "unstable" where the runs must be detected as unstable
+  long steps = 2000;                           ///< limit: steps of each trial of the bisection
+  bool slow = false;                           ///< left out by --quick, and then reported as left out
+  int line = 0;                                ///< of its declaration
+  std::string declaration;                     ///< its own keys and values in one canonical line, for gates.lock
 };
 
 struct FigureSpec {
-  std::string id;      ///< "fig1"
+  std::string id;  ///< "fig1"
   std::string field = "stress";
   std::vector<double> times;          ///< subset of the sample times; empty: all
   std::vector<std::string> captions;  ///< one per time: what to see
@@ -108,7 +108,7 @@ struct Case {
   std::map<std::string, double> parameters;                  ///< names for expressions, besides L, E, rho, c and pi
   std::vector<std::string> features;                         ///< declared, sorted
   ExactSpec exact;
-  std::vector<Axes> axes;      ///< blocks; the runs are the union of their products
+  std::vector<Axes> axes;     ///< blocks; the runs are the union of their products
   std::string time_unit;      ///< "s" or "L/c"
   std::vector<double> times;  ///< ascending, > 0
   std::vector<Probe> probes;

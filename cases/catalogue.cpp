@@ -56,10 +56,11 @@ std::vector<Case> all_cases() {
     if (entry.path().extension() == ".toml") cases.push_back(read_case(entry.path()));
   }
   std::sort(cases.begin(), cases.end(), [](const Case& a, const Case& b) { return a.id < b.id; });
-  const auto twice = std::adjacent_find(cases.begin(), cases.end(), [](const Case& a, const Case& b) { return a.id == b.id; });
+  const auto twice =
+      std::adjacent_find(cases.begin(), cases.end(), [](const Case& a, const Case& b) { return a.id == b.id; });
   if (twice != cases.end()) {
-    throw InputError(fmt::format("{}: id: '{}' is also the id of {}; allowed is an id of its own", twice->path.string(), twice->id,
-                                 (twice + 1)->path.string()));
+    throw InputError(fmt::format("{}: id: '{}' is also the id of {}; allowed is an id of its own", twice->path.string(),
+                                 twice->id, (twice + 1)->path.string()));
   }
   return cases;
 }
@@ -84,9 +85,10 @@ std::vector<Case> select_cases(const std::vector<std::string>& selectors) {
       std::vector<std::string> ids;
       for (const Case& c : known) ids.push_back(c.id);
       const std::string near = nearest(id, ids);
-      throw InputError(fmt::format("no case '{}'{}; a case is a path that ends in .toml, an id or a pattern over ids; "
-                                   "'diptych list' names them",
-                                   id, near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near)));
+      throw InputError(
+          fmt::format("no case '{}'{}; a case is a path that ends in .toml, an id or a pattern over ids; "
+                      "'diptych list' names them",
+                      id, near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near)));
     }
   }
   // The same case named twice runs once; two gates of it are kept together.
@@ -101,7 +103,8 @@ std::vector<Case> select_cases(const std::vector<std::string>& selectors) {
       throw InputError(fmt::format("id '{}' belongs to both {} and {}", c.id, same->path.string(), c.path.string()));
     }
     for (const GateSpec& gate : c.gates) {
-      const bool there = std::any_of(same->gates.begin(), same->gates.end(), [&](const GateSpec& g) { return g.id == gate.id; });
+      const bool there =
+          std::any_of(same->gates.begin(), same->gates.end(), [&](const GateSpec& g) { return g.id == gate.id; });
       if (!there) same->gates.push_back(gate);
     }
   }
@@ -130,7 +133,8 @@ std::vector<std::string> differences_from_lock(const std::vector<Case>& cases, b
       if (locked == lock.end()) {
         differences.push_back(name + " is not in cases/gates.lock");
       } else if (locked->second != gate.declaration) {
-        differences.push_back(fmt::format("{} is declared as\n    {}\n  but locked as\n    {}", name, gate.declaration, locked->second));
+        differences.push_back(
+            fmt::format("{} is declared as\n    {}\n  but locked as\n    {}", name, gate.declaration, locked->second));
       }
     }
   }

@@ -43,7 +43,8 @@ std::function<void(std::size_t, std::size_t)> progress() {
 }
 
 /// Runs, judges every gate and makes the figures.
-std::vector<reports::Case> measure(const std::vector<Case>& cases, const Options& options, const std::atomic<bool>& cancelled) {
+std::vector<reports::Case> measure(const std::vector<Case>& cases, const Options& options,
+                                   const std::atomic<bool>& cancelled) {
   auto results = run_cases(cases, {threads_of(options), &cancelled, options.ledger, progress()});
   for (std::size_t i = 0; i < cases.size(); ++i) {
     for (const GateSpec& gate : cases[i].gates) results[i].gates.push_back(judge(cases[i], gate, results[i].runs));
@@ -53,7 +54,8 @@ std::vector<reports::Case> measure(const std::vector<Case>& cases, const Options
 }
 
 void print_gate(const reports::Gate& gate) {
-  std::string margin = gate.verdict == reports::Verdict::pass ? fmt::format("{:4.0f} % headroom", 100 * gate.headroom()) : gate.message;
+  std::string margin =
+      gate.verdict == reports::Verdict::pass ? fmt::format("{:4.0f} % headroom", 100 * gate.headroom()) : gate.message;
   fmt::print("{:8} {}/{}  {}  {}\n", to_string(gate.verdict), gate.case_id, gate.id, gate.formula, margin);
 }
 
@@ -70,8 +72,8 @@ int finish(const std::vector<Case>& cases, const std::vector<reports::Case>& res
     outcome.exit_code = invalid;
     outcome.verdict = "INVALID";
   }
-  fmt::print("DIPTYCH-VERDICT {} gates={}/{} passed={} left_out={}\n", outcome.verdict, outcome.judged, outcome.declared,
-             outcome.passed, outcome.left_out);
+  fmt::print("DIPTYCH-VERDICT {} gates={}/{} passed={} left_out={}\n", outcome.verdict, outcome.judged,
+             outcome.declared, outcome.passed, outcome.left_out);
   return outcome.exit_code;
 }
 
@@ -117,7 +119,8 @@ int draw_figures(const std::vector<reports::Case>& results, const std::filesyste
       if (drawn == reports::Drawn::gnuplot_failed) fmt::print(stderr, "gnuplot failed on {}: {}\n", figure.id, message);
     }
   }
-  if (missing) fmt::print(stderr, "gnuplot is not installed: no pictures, all else is complete (apt-get install gnuplot-nox)\n");
+  if (missing)
+    fmt::print(stderr, "gnuplot is not installed: no pictures, all else is complete (apt-get install gnuplot-nox)\n");
   return undrawn;
 }
 
@@ -140,7 +143,8 @@ bool all_completed(const std::vector<Case>& cases, const std::vector<reports::Ca
       const bool meant = cases[i].allow_unstable && run.status == "unstable";
       if ((run.status == "completed" && run.invalid.empty()) || meant) continue;
       good = false;
-      fmt::print(stderr, "{}: {}: {} {}\n", run.case_id, run.label(), run.status, run.invalid.empty() ? run.message : run.invalid);
+      fmt::print(stderr, "{}: {}: {} {}\n", run.case_id, run.label(), run.status,
+                 run.invalid.empty() ? run.message : run.invalid);
     }
   }
   return good;
@@ -149,7 +153,8 @@ bool all_completed(const std::vector<Case>& cases, const std::vector<reports::Ca
 /// "fig3" means fig3 and fig3a, fig3b.
 bool names_figure(const std::string& wanted, const std::string& id) {
   if (id == wanted) return true;
-  return id.size() == wanted.size() + 1 && id.rfind(wanted, 0) == 0 && std::isalpha(static_cast<unsigned char>(id.back()));
+  return id.size() == wanted.size() + 1 && id.rfind(wanted, 0) == 0 &&
+         std::isalpha(static_cast<unsigned char>(id.back()));
 }
 
 }  // namespace
@@ -187,12 +192,16 @@ int explain_command(const Options& options, const std::atomic<bool>& cancelled) 
   const auto results = measure(cases, options, cancelled);
   for (std::size_t i = 0; i < cases.size(); ++i) {
     for (const auto& gate : results[i].gates) {
-      fmt::print("{}/{}: {}\n  {}\n  case        {}\n  declared    {}:{}\n  kind        {}\n  judged      {}\n  why so      {}\n",
-                 gate.case_id, gate.id, to_string(gate.verdict), gate.message.empty() ? "every check passed" : gate.message,
-                 cases[i].title, cases[i].path.string(), gate.line, gate.kind, gate.formula, gate.reason);
+      fmt::print(
+          "{}/{}: {}\n  {}\n  case        {}\n  declared    {}:{}\n  kind        {}\n  judged      {}\n  why so      "
+          "{}\n",
+          gate.case_id, gate.id, to_string(gate.verdict), gate.message.empty() ? "every check passed" : gate.message,
+          cases[i].title, cases[i].path.string(), gate.line, gate.kind, gate.formula, gate.reason);
       for (const auto& check : gate.checks) {
-        fmt::print("  {} {:60} value {:12.6g}{} judged {:12.6g} in [{:g}, {:g}]\n", check.passed ? "ok  " : "FAIL", check.what, check.value,
-                   check.predicted ? fmt::format("  predicted {:12.6g}", *check.predicted) : "", check.judged, check.low, check.high);
+        fmt::print("  {} {:60} value {:12.6g}{} judged {:12.6g} in [{:g}, {:g}]\n", check.passed ? "ok  " : "FAIL",
+                   check.what, check.value,
+                   check.predicted ? fmt::format("  predicted {:12.6g}", *check.predicted) : "", check.judged,
+                   check.low, check.high);
       }
       if (!gate.checks.empty()) fmt::print("  headroom    {:.0f} %\n\n", 100 * gate.headroom());
     }
@@ -209,8 +218,10 @@ int list_command(const Options& options) {
     return all_passed;
   }
   for (const Case& c : cases) {
-    fmt::print("{}  {}{}\n", c.id, c.title, c.paper_figures.empty() ? "" : fmt::format("  [paper: Fig. {}]", fmt::join(c.paper_figures, ", ")));
-    for (const GateSpec& gate : c.gates) fmt::print("    {:24} {:10} {}{}\n", gate.id, gate.kind, gate.quantity, gate.slow ? "  (slow)" : "");
+    fmt::print("{}  {}{}\n", c.id, c.title,
+               c.paper_figures.empty() ? "" : fmt::format("  [paper: Fig. {}]", fmt::join(c.paper_figures, ", ")));
+    for (const GateSpec& gate : c.gates)
+      fmt::print("    {:24} {:10} {}{}\n", gate.id, gate.kind, gate.quantity, gate.slow ? "  (slow)" : "");
   }
   return all_passed;
 }
@@ -218,26 +229,30 @@ int list_command(const Options& options) {
 int show_command(const Options& options) {
   for (const Case& c : select_cases(options.selectors)) {
     const auto end_text = [](Support s) { return s == Support::fixed ? "fixed" : "free"; };
-    fmt::print("{}: {}\n  file       {}\n  claim      {}\n  why        {}\n", c.id, c.title, c.path.string(), c.claim, c.why);
-    fmt::print("  bar        length {:g}, E {:g}, rho {:g}, wave speed {:g} ({} units), {}–{}, {} displacements\n", c.length,
-               material::youngs_modulus(c.material), material::density(c.material), material::wave_speed(c.material), c.units,
-               end_text(c.left), end_text(c.right), c.convected ? "finite" : "infinitesimal");
+    fmt::print("{}: {}\n  file       {}\n  claim      {}\n  why        {}\n", c.id, c.title, c.path.string(), c.claim,
+               c.why);
+    fmt::print("  bar        length {:g}, E {:g}, rho {:g}, wave speed {:g} ({} units), {}–{}, {} displacements\n",
+               c.length, material::youngs_modulus(c.material), material::density(c.material),
+               material::wave_speed(c.material), c.units, end_text(c.left), end_text(c.right),
+               c.convected ? "finite" : "infinitesimal");
     for (const LoadSpec& load : c.loads) {
-      fmt::print("  load       {} on the {} end, {}, through the {}\n", load.history, load.end == End::left ? "left" : "right",
+      fmt::print("  load       {} on the {} end, {}, through the {}\n", load.history,
+                 load.end == End::left ? "left" : "right",
                  load.history == "expression" ? load.expression : fmt::format("traction {:g}", load.traction),
                  load.transfer == Transfer::node ? "boundary node" : "boundary layer (eq. 16)");
     }
     if (!c.body_force.empty()) fmt::print("  body force {}\n", c.body_force);
     if (!c.initial_velocity.empty()) fmt::print("  velocity   {} at the start\n", c.initial_velocity);
     if (!c.initial_stress.empty()) fmt::print("  stress     {} at the start\n", c.initial_stress);
-    fmt::print("  exact      {}\n  features   {}\n  sampled    t = {} {}\n", c.exact.solution, fmt::join(c.features, ", "),
-               fmt::join(c.times, ", "), c.time_unit);
+    fmt::print("  exact      {}\n  features   {}\n  sampled    t = {} {}\n", c.exact.solution,
+               fmt::join(c.features, ", "), fmt::join(c.times, ", "), c.time_unit);
     fmt::print("  runs       {}\n", leaves(c).size());
     for (const Leaf& leaf : leaves(c)) {
       fmt::print("             {} {} cells, Courant {:g}{}\n", leaf.method, leaf.cells, leaf.courant,
                  leaf.particles.empty() ? "" : ", particles at " + particles_label(leaf.particles));
     }
-    for (const GateSpec& gate : c.gates) fmt::print("  gate       {:24} {}\n             {}\n", gate.id, gate.declaration, gate.reason);
+    for (const GateSpec& gate : c.gates)
+      fmt::print("  gate       {:24} {}\n             {}\n", gate.id, gate.declaration, gate.reason);
   }
   return all_passed;
 }
@@ -259,7 +274,8 @@ int paper_command(const Options& options, const std::atomic<bool>& cancelled) {
   }
   if (options.selectors.empty()) wanted = known;
   std::erase_if(cases, [&](const Case& c) {
-    return std::none_of(c.figures.begin(), c.figures.end(), [&](const FigureSpec& f) { return wanted.count(f.id) > 0; });
+    return std::none_of(c.figures.begin(), c.figures.end(),
+                        [&](const FigureSpec& f) { return wanted.count(f.id) > 0; });
   });
   const auto out = options.out / "paper";
   const auto results = measure(cases, options, cancelled);
@@ -267,7 +283,8 @@ int paper_command(const Options& options, const std::atomic<bool>& cancelled) {
   for (const auto& result : results) write_tables(result, out / "tables");
   const int undrawn = draw_figures(results, out / "figures", wanted);
   for (const auto& result : results) {
-    for (const char* ending : {".txt", ".csv", ".tex"}) fmt::print("{}\n", (out / "tables" / (result.id + ending)).string());
+    for (const char* ending : {".txt", ".csv", ".tex"})
+      fmt::print("{}\n", (out / "tables" / (result.id + ending)).string());
   }
   reports::write_file(out / "results.jsonl", reports::results_jsonl(results, provenance()));
   fmt::print("{}\n", (out / "results.jsonl").string());
@@ -287,7 +304,8 @@ int test_command() {
 
 std::string version_text() {
   const auto p = provenance();
-  return fmt::format("diptych {} ({}{}), {}, flags{}, {}", p.version, p.commit, p.dirty ? ", changed" : "", p.compiler, p.flags, p.os);
+  return fmt::format("diptych {} ({}{}), {}, flags{}, {}", p.version, p.commit, p.dirty ? ", changed" : "", p.compiler,
+                     p.flags, p.os);
 }
 
 }  // namespace diptych::cases

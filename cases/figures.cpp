@@ -24,8 +24,8 @@ std::string upper(std::string s) {
 
 const reports::Run* find(const std::vector<reports::Run>& runs, const FigureSpec& spec, const std::string& method) {
   for (const auto& run : runs) {
-    if (run.method == method && run.cells == spec.cells && run.courant_asked == spec.courant && run.status == "completed" &&
-        (method == "fem" || run.particles == particles_label(spec.particles))) {
+    if (run.method == method && run.cells == spec.cells && run.courant_asked == spec.courant &&
+        run.status == "completed" && (method == "fem" || run.particles == particles_label(spec.particles))) {
       return &run;
     }
   }
@@ -52,10 +52,11 @@ std::vector<reports::Figure> make_figures(const Case& c, const std::vector<repor
     figure.x_label = fmt::format("x [{}]", c.units == "paper" ? "paper's units" : "m");
     figure.y_label = fmt::format("{} {} [{}]", spec.field, symbol_of(spec.field), unit_of(c, spec.field));
     figure.x_max = c.length;
-    figure.notes.push_back(fmt::format(
-        "{} cells; Courant number {:g}; particles at ξ = {} of each cell; {} displacements; E = {:g}, ρ = {:g}, L = {:g}", spec.cells,
-        spec.courant, particles_label(spec.particles), c.convected ? "finite" : "infinitesimal",
-        material::youngs_modulus(c.material), material::density(c.material), c.length));
+    figure.notes.push_back(
+        fmt::format("{} cells; Courant number {:g}; particles at ξ = {} of each cell; {} displacements; E = {:g}, ρ = "
+                    "{:g}, L = {:g}",
+                    spec.cells, spec.courant, particles_label(spec.particles), c.convected ? "finite" : "infinitesimal",
+                    material::youngs_modulus(c.material), material::density(c.material), c.length));
     figure.notes.push_back("The times are our choice, to show what the paper describes.");
     const auto& times = spec.times.empty() ? c.times : spec.times;
     for (std::size_t i = 0; i < times.size(); ++i) {
@@ -74,8 +75,8 @@ std::vector<reports::Figure> make_figures(const Case& c, const std::vector<repor
             panel.series.push_back({"exact", "exact", sample.exact_curves.at(spec.field)});
           }
           const bool fem = method == "fem";
-          panel.series.push_back({fem ? "FEM" : "MPM, " + upper(method.substr(4)), fem ? "fem" : "mpm",
-                                  sample.curves.at(spec.field)});
+          panel.series.push_back(
+              {fem ? "FEM" : "MPM, " + upper(method.substr(4)), fem ? "fem" : "mpm", sample.curves.at(spec.field)});
         }
       }
       for (const auto& series : panel.series) widen(figure, series.curve);

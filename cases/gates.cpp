@@ -120,17 +120,20 @@ std::vector<Reading> read(const Case& c, const GateSpec& gate, const std::vector
     } else if (run.measures.count(gate.quantity)) {
       const auto predicted = run.measures.find(gate.quantity + ".predicted");
       readings.push_back({&run, std::nan(""), run.measures.at(gate.quantity),
-                          predicted == run.measures.end() ? std::nullopt : std::optional(predicted->second), run.label()});
+                          predicted == run.measures.end() ? std::nullopt : std::optional(predicted->second),
+                          run.label()});
     }
-    const std::size_t planned = is_field(head) || head == "probe" ? (gate.times.empty() ? c.times.size() : gate.times.size()) : 1;
+    const std::size_t planned =
+        is_field(head) || head == "probe" ? (gate.times.empty() ? c.times.size() : gate.times.size()) : 1;
     if (readings.size() - before != planned) {
-      throw Stop{Verdict::invalid, fmt::format("{} gave {} of {} values of {}", run.label(), readings.size() - before, planned,
-                                               gate.quantity)};
+      throw Stop{Verdict::invalid, fmt::format("{} gave {} of {} values of {}", run.label(), readings.size() - before,
+                                               planned, gate.quantity)};
     }
   }
   if (readings.empty()) throw Stop{Verdict::invalid, "no run matches where"};
   for (const Reading& r : readings) {
-    if (!std::isfinite(r.value)) throw Stop{Verdict::invalid, fmt::format("{}: {} is {}", r.what, gate.quantity, r.value)};
+    if (!std::isfinite(r.value))
+      throw Stop{Verdict::invalid, fmt::format("{}: {} is {}", r.what, gate.quantity, r.value)};
   }
   return readings;
 }
@@ -146,10 +149,11 @@ void judge_maximum(const GateSpec& gate, const std::vector<Reading>& readings, G
 }
 
 void judge_ratio(const GateSpec& gate, const std::vector<Reading>& readings, Gate& result) {
-  result.formula = fmt::format("{} / predicted by {} within [{:g}, {:g}]", gate.quantity, gate.predict, (*gate.ratio)[0],
-                               (*gate.ratio)[1]);
+  result.formula = fmt::format("{} / predicted by {} within [{:g}, {:g}]", gate.quantity, gate.predict,
+                               (*gate.ratio)[0], (*gate.ratio)[1]);
   for (const Reading& r : readings) {
-    if (!r.predicted) throw Stop{Verdict::invalid, fmt::format("{}: {} has no prediction for {}", r.what, gate.predict, gate.quantity)};
+    if (!r.predicted)
+      throw Stop{Verdict::invalid, fmt::format("{}: {} has no prediction for {}", r.what, gate.predict, gate.quantity)};
     // A right prediction of round-off says nothing, and an error of exactly nothing is a comparison with oneself.
     if (r.value == 0 || !(std::abs(*r.predicted) > floor_of_noise)) {
       throw Stop{Verdict::invalid, fmt::format("{}: {} = {:g} against {:g} is at the floor of round-off", r.what,
@@ -174,8 +178,8 @@ void check_expectation(const Case& c, const GateSpec& gate, const Run& run) {
 
 void judge_order(const Case& c, const GateSpec& gate, const std::vector<Reading>& readings, Gate& result) {
   const auto [low, high] = *gate.band;
-  result.formula = fmt::format("slope of log {} over log h, expected {:.4g}, within [{:g}, {:g}]", gate.quantity, *gate.expect,
-                               low, high);
+  result.formula = fmt::format("slope of log {} over log h, expected {:.4g}, within [{:g}, {:g}]", gate.quantity,
+                               *gate.expect, low, high);
   std::map<std::string, std::vector<Reading>> groups;  // all but the mesh held fast
   for (const Reading& r : readings) {
     groups[fmt::format("{} C={:g}{}, t = {:g} {}", r.run->method, r.run->courant_asked,
@@ -183,22 +187,27 @@ void judge_order(const Case& c, const GateSpec& gate, const std::vector<Reading>
         .push_back(r);
   }
   for (auto& [name, group] : groups) {
-    std::sort(group.begin(), group.end(), [](const Reading& a, const Reading& b) { return a.run->cells < b.run->cells; });
+    std::sort(group.begin(), group.end(),
+              [](const Reading& a, const Reading& b) { return a.run->cells < b.run->cells; });
     check_expectation(c, gate, *group.front().run);
     if (static_cast<int>(group.size()) < gate.levels_min) {
-      throw Stop{Verdict::invalid, fmt::format("{}: {} meshes, at least {} are needed", name, group.size(), gate.levels_min)};
+      throw Stop{Verdict::invalid,
+                 fmt::format("{}: {} meshes, at least {} are needed", name, group.size(), gate.levels_min)};
     }
     std::vector<double> sizes, errors;
     for (const Reading& r : group) {
-      if (!sizes.empty() && !(r.run->cell_size < sizes.back())) throw Stop{Verdict::invalid, name + ": two meshes are the same"};
+      if (!sizes.empty() && !(r.run->cell_size < sizes.back()))
+        throw Stop{Verdict::invalid, name + ": two meshes are the same"};
       sizes.push_back(r.run->cell_size);
       errors.push_back(r.value);
     }
     if (!(errors.back() > floor_of_noise)) {
-      throw Stop{Verdict::invalid, fmt::format("{}: the finest error {:g} is at the floor of round-off", name, errors.back())};
+      throw Stop{Verdict::invalid,
+                 fmt::format("{}: the finest error {:g} is at the floor of round-off", name, errors.back())};
     }
     if (!(errors.front() < saturated)) {
-      throw Stop{Verdict::invalid, fmt::format("{}: the coarsest error {:g} has not begun to converge", name, errors.front())};
+      throw Stop{Verdict::invalid,
+                 fmt::format("{}: the coarsest error {:g} has not begun to converge", name, errors.front())};
     }
     const reports::Fit fit = reports::fit_order(sizes, errors);
     const bool inside = fit.order >= low && fit.order <= high;
@@ -206,8 +215,8 @@ void judge_order(const Case& c, const GateSpec& gate, const std::vector<Reading>
       throw Stop{Verdict::invalid, fmt::format("{}: the errors lie on no line: slope {:.3f} ± {:.3f}", name, fit.order,
                                                fit.standard_error)};
     }
-    hold(result, {fmt::format("{} ({} meshes, ± {:.3f})", name, fit.levels, fit.standard_error), fit.order, *gate.expect, low,
-                  high, fit.order, false});
+    hold(result, {fmt::format("{} ({} meshes, ± {:.3f})", name, fit.levels, fit.standard_error), fit.order,
+                  *gate.expect, low, high, fit.order, false});
   }
 }
 
@@ -220,7 +229,8 @@ void judge_blow_up(const Case& c, const GateSpec& gate, const std::vector<Run>& 
       throw Stop{Verdict::error, run.label() + ": " + run.status + ": " + run.message};
     }
     const double seen = run.status == "unstable" ? 1 : 0;
-    hold(result, {fmt::format("{}: {} after {} steps", run.label(), run.status, run.steps), seen, 1.0, 1, 1, seen, false});
+    hold(result,
+         {fmt::format("{}: {} after {} steps", run.label(), run.status, run.steps), seen, 1.0, 1, 1, seen, false});
   }
 }
 
@@ -258,7 +268,8 @@ Gate judge(const Case& c, const GateSpec& gate, const std::vector<Run>& runs) {
   for (const Check& check : result.checks) {
     if (check.passed) continue;
     if (result.verdict == Verdict::pass) {
-      result.message = fmt::format("{}: {:.6g} is outside [{:g}, {:g}]", check.what, check.judged, check.low, check.high);
+      result.message =
+          fmt::format("{}: {:.6g} is outside [{:g}, {:g}]", check.what, check.judged, check.low, check.high);
     }
     result.verdict = Verdict::fail;
   }

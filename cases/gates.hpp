@@ -17,7 +17,7 @@ struct Outcome {
   int exit_code = 13;
   std::string verdict;  ///< "PASS", or the worst of the gates' verdicts
   int declared = 0, judged = 0, passed = 0;
-  int left_out = 0;     ///< slow gates that --quick did not run
+  int left_out = 0;  ///< slow gates that --quick did not run
 };
 Outcome sum_up(const std::vector<reports::Case>&, int declared, int left_out);
 

@@ -38,6 +38,8 @@ bool matches(const Where& where, const Leaf& leaf) {
          allowed(where.courant, leaf.courant) && (leaf.method == "fem" || allowed(where.particles, leaf.particles));
 }
 
-std::string particles_label(const std::vector<double>& positions) { return fmt::format("{}", fmt::join(positions, " ")); }
+std::string particles_label(const std::vector<double>& positions) {
+  return fmt::format("{}", fmt::join(positions, " "));
+}
 
 }  // namespace diptych::cases

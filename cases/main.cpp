@@ -37,13 +37,15 @@ int main(int argc, char** argv) {
   int status = usage;
 
   const auto add_threads = [&](CLI::App* command) {
-    command->add_option("-j,--jobs", options.threads, "threads; the results do not depend on it")->check(CLI::Range(1, 1024));
+    command->add_option("-j,--jobs", options.threads, "threads; the results do not depend on it")
+        ->check(CLI::Range(1, 1024));
   };
   const auto add_out = [&](CLI::App* command) {
     command->add_option("--out", options.out, "directory for results")->capture_default_str();
   };
   const auto add_cases = [&](CLI::App* command, bool required) {
-    auto* option = command->add_option("CASE", options.selectors, "case file, id, or pattern over ids; CASE/GATE for one gate");
+    auto* option =
+        command->add_option("CASE", options.selectors, "case file, id, or pattern over ids; CASE/GATE for one gate");
     if (required) option->required();
   };
 
@@ -53,7 +55,9 @@ int main(int argc, char** argv) {
   add_threads(paper);
   paper->callback([&] { status = paper_command(options, cancelled); });
 
-  app.add_subcommand("test", "unit tests, gates and planted defects: all that CI runs")->callback([&] { status = test_command(); });
+  app.add_subcommand("test", "unit tests, gates and planted defects: all that CI runs")->callback([&] {
+    status = test_command();
+  });
 
   auto* run = app.add_subcommand("run", "run cases and print convergence tables");
   add_cases(run, true);

@@ -22,7 +22,8 @@ double value_at(const Field& field, double x) {
   return (1 - s) * field.value[i - 1] + s * field.value[i];
 }
 
-Norms error_norms(const Field& field, const analytic::ExactSolution& exact, analytic::Quantity quantity, double length) {
+Norms error_norms(const Field& field, const analytic::ExactSolution& exact, analytic::Quantity quantity,
+                  double length) {
   std::vector<double> breaks = field.edges.empty() ? field.x : field.edges;
   breaks.push_back(0);
   breaks.push_back(length);

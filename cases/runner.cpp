@@ -58,7 +58,8 @@ double cell_time(const Scene& scene, const Leaf& leaf) {
 Stepping plan(const Case& c, const Scene& scene, const Leaf& leaf) {
   const double unit = time_unit(c, c.time_unit), end = c.times.back() * unit;
   Stepping stepping;
-  stepping.steps = std::max(1L, static_cast<long>(std::ceil(end / (leaf.courant * cell_time(scene, leaf)) * (1 - round_off))));
+  stepping.steps =
+      std::max(1L, static_cast<long>(std::ceil(end / (leaf.courant * cell_time(scene, leaf)) * (1 - round_off))));
   stepping.time_step = end / static_cast<double>(stepping.steps);
   for (const double time : c.times) {
     stepping.sample_after.push_back(std::max(1L, std::lround(time * unit / stepping.time_step)));
@@ -68,9 +69,8 @@ Stepping plan(const Case& c, const Scene& scene, const Leaf& leaf) {
 }
 
 bool asks_for(const Case& c, const Leaf& leaf, const std::string& quantity) {
-  return std::any_of(c.gates.begin(), c.gates.end(), [&](const GateSpec& gate) {
-    return gate.quantity == quantity && matches(gate.where, leaf);
-  });
+  return std::any_of(c.gates.begin(), c.gates.end(),
+                     [&](const GateSpec& gate) { return gate.quantity == quantity && matches(gate.where, leaf); });
 }
 
 void measure_ledger(const Case& c, const Record& record, reports::Run& run) {
@@ -135,8 +135,8 @@ void measure_bits(const Case& c, const Leaf& leaf, const Scene& scene, const Ste
 }
 
 /// Largest Courant number, to one part in a thousand, at which the scene stays bounded for the given number of steps.
-/// The bracket opens around the predicted limit until one end is stable and the other is not, and closes without looking
-/// at the prediction again. NaN where no such bracket is found.
+/// The bracket opens around the predicted limit until one end is stable and the other is not, and closes without
+/// looking at the prediction again. NaN where no such bracket is found.
 double bisect_limit(const Scene& scene, const Leaf& leaf, double predicted, long steps) {
   const auto stable = [&](double courant) {
     Stepping trial;
@@ -219,7 +219,8 @@ reports::Sample measure_sample(const Case& c, const Leaf& leaf, const Snapshot& 
     if (!exact || !exact->gives(q)) continue;
     const double scale = exact->scale(q);
     const Norms norms = error_norms(field, *exact, q, c.length);
-    reports::FieldError error{name, field.time / unit, scale, norms.l1 / scale, norms.l2 / scale, norms.linf / scale, {}, {}, {}};
+    reports::FieldError error{
+        name, field.time / unit, scale, norms.l1 / scale, norms.l2 / scale, norms.linf / scale, {}, {}, {}};
     const auto predicted = [&](analytic::Norm norm) {
       auto value = analytic::predicted_error(*exact, theory, q, norm, field.time);
       if (value) *value /= scale;
@@ -273,7 +274,8 @@ std::string doubt_exact(const Case& c) {
   const auto exact = make_exact(c);
   const double end = c.times.back() * time_unit(c, c.time_unit);
   double worst = 0;
-  if (const auto* bar = dynamic_cast<const analytic::BarWave*>(exact.get())) worst = analytic::self_test(*bar, end).worst();
+  if (const auto* bar = dynamic_cast<const analytic::BarWave*>(exact.get()))
+    worst = analytic::self_test(*bar, end).worst();
   if (const auto* mode = dynamic_cast<const analytic::StandingMode*>(exact.get())) {
     worst = analytic::self_test(*mode, end).worst();
   }
@@ -333,7 +335,8 @@ reports::Run run_leaf(const Case& c, const Leaf& leaf, const Running& running) {
   measure_ledger(c, record, run);
   if (running.keep_ledger) {
     for (const LedgerLine& line : record.ledger) {
-      run.ledger.push_back({line.time, line.kinetic, line.strain, line.dissipated, line.work, line.lost, line.momentum, line.impulse});
+      run.ledger.push_back(
+          {line.time, line.kinetic, line.strain, line.dissipated, line.work, line.lost, line.momentum, line.impulse});
     }
   }
   measure_bits(c, leaf, scene, stepping, record, run);
@@ -383,7 +386,8 @@ std::vector<reports::Case> run_cases(const std::vector<Case>& cases, const Runni
 
   std::mutex telling;
   std::size_t done = 0;
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(running.threads));
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(running.threads));
   // Each run is serial and writes its own slot, so neither the number of threads nor their order can touch a bit.
   tbb::parallel_for(std::size_t{0}, tasks.size(), [&](std::size_t t) {
     if (running.cancelled && *running.cancelled) return;

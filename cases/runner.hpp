@@ -17,10 +17,12 @@ struct Running {
   int threads = 1;
   const std::atomic<bool>* cancelled = nullptr;  ///< turns true where runs should stop soon
   bool keep_ledger = false;                      ///< keep every step's line of the ledger in the results
-  std::function<void(std::size_t done, std::size_t total)> progress = {};  ///< after each run, from one thread at a time
+  std::function<void(std::size_t done, std::size_t total)> progress =
+      {};  ///< after each run, from one thread at a time
 };
 
-/// One run of a leaf's scene, measured: errors, predictions, ledger, invariants and limits that the case's gates ask for.
+/// One run of a leaf's scene, measured: errors, predictions, ledger, invariants and limits that the case's gates ask
+/// for.
 reports::Run run_leaf(const Case&, const Leaf&, const Running& = {});
 
 /// Throws InputError where a leaf asks for a Courant number above the method's limit and the case does not allow it.

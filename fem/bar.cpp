@@ -32,15 +32,14 @@ class Bar {
     hold_supports();
   }
 
-  // Central differences: (uⁿ, σⁿ, vⁿ⁻½) → (uⁿ⁺¹, σⁿ⁺¹, vⁿ⁺½). The first kick takes v⁰ to v½, so it is half a step long.
+  // Central differences: (uⁿ, σⁿ, vⁿ⁻½) → (uⁿ⁺¹, σⁿ⁺¹, vⁿ⁺½).
   void step(long n, Ledger* ledger) {
-    const double time = static_cast<double>(n) * dt_;
-    const double kick = n == 0 ? dt_ / 2 : dt_;
-    internal_force();                                   // eq. 19 with one Gauss point
-    external_force(n == 0 ? 0 : time - dt_ / 2, time + dt_ / 2);
-    if (ledger) ledger->before_kick(work_rate(), impulse_rate(), kick);
-    integrate_momentum(kick);                           // eq. 18
-    if (ledger) ledger->after_kick(work_rate(), kick);
+    const Kick kick = kick_around(n, dt_);
+    internal_force();      // eq. 19 with one Gauss point
+    external_force(kick);  // eqs. 17, 20
+    if (ledger) ledger->before_kick(work_rate(), impulse_rate(), kick.length);
+    integrate_momentum(kick.length);  // eq. 18
+    if (ledger) ledger->after_kick(work_rate(), kick.length);
     move();
     if (ledger) {
       update_stress<true>(ledger);
@@ -82,7 +81,9 @@ class Bar {
 
  private:
   double node(std::size_t i) const { return scene_.length * static_cast<double>(i) / static_cast<double>(cells_); }
-  double midpoint(std::size_t e) const { return scene_.length * (static_cast<double>(e) + 0.5) / static_cast<double>(cells_); }
+  double midpoint(std::size_t e) const {
+    return scene_.length * (static_cast<double>(e) + 0.5) / static_cast<double>(cells_);
+  }
 
   void internal_force() {
     force_[0] = state_[0].stress;
@@ -90,15 +91,18 @@ class Bar {
     force_[cells_] = -state_[cells_ - 1].stress;
   }
 
-  void external_force(double from, double to) {
+  void external_force(const Kick& kick) {
     load_[0] = load_[1] = 0;
     for (const Load& load : scene_.loads) {
-      const double traction = load.mean_traction(from, to);
-      if (load.end == End::left) load_[0] -= traction; else load_[1] += traction;
+      const double traction = load.mean_traction(kick.from, kick.to);
+      if (load.end == End::left)
+        load_[0] -= traction;
+      else
+        load_[1] += traction;
     }
     force_[0] += load_[0];
     force_[cells_] += load_[1];
-    if (scene_.body_force) add_body_force((from + to) / 2);
+    if (scene_.body_force) add_body_force((kick.from + kick.to) / 2);
   }
 
   void add_body_force(double time) {
@@ -163,10 +167,10 @@ class Bar {
   double dt_;
   std::size_t cells_;
   double h_;
-  std::vector<typename Law::State> state_;                       // per element
-  std::vector<double> mass_, force_, velocity_, displacement_;   // per node
-  std::vector<double> body_;                                     // per node, only with a body force
-  double load_[2] = {0, 0};                                      // force of the tractions on the end nodes
+  std::vector<typename Law::State> state_;                      // per element
+  std::vector<double> mass_, force_, velocity_, displacement_;  // per node
+  std::vector<double> body_;                                    // per node, only with a body force
+  double load_[2] = {0, 0};                                     // force of the tractions on the end nodes
 };
 
 }  // namespace

@@ -47,8 +47,8 @@ struct Hardening {
   double yield_stress;     ///< initial yield stress [Pa], > 0
 
   struct State {
-    double stress = 0;              ///< σ [Pa], tension positive
-    double hardened = 0;            ///< rise of the yield stress since the start [Pa], ≥ 0
+    double stress = 0;    ///< σ [Pa], tension positive
+    double hardened = 0;  ///< rise of the yield stress since the start [Pa], ≥ 0
   };
 
   static constexpr const char* feature = "plasticity";
@@ -76,8 +76,14 @@ struct Hardening {
 
 using Material = std::variant<Elastic, Hardening>;
 
-inline double youngs_modulus(const Material& m) { return std::visit([](const auto& law) { return law.youngs_modulus; }, m); }
-inline double density(const Material& m) { return std::visit([](const auto& law) { return law.density; }, m); }
-inline double wave_speed(const Material& m) { return std::visit([](const auto& law) { return law.elastic_wave_speed(); }, m); }
+inline double youngs_modulus(const Material& m) {
+  return std::visit([](const auto& law) { return law.youngs_modulus; }, m);
+}
+inline double density(const Material& m) {
+  return std::visit([](const auto& law) { return law.density; }, m);
+}
+inline double wave_speed(const Material& m) {
+  return std::visit([](const auto& law) { return law.elastic_wave_speed(); }, m);
+}
 
 }  // namespace diptych::material

@@ -11,6 +11,25 @@
 
 namespace diptych {
 
+/// The interval over which forces act on the velocity at one go.
+struct Kick {
+  double from, to;  ///< [s]
+  double length;    ///< [s]
+};
+
+/// The kick that takes vⁿ⁻½ to vⁿ⁺½; the first takes v⁰ to v½ and is half as long.
+inline Kick kick_around(long n, double time_step) {
+  const double time = static_cast<double>(n) * time_step, half = time_step / 2;
+  if (n == 0) return {0, half, half};
+  return {time - half, time + half, time_step};
+}
+
+/// The kick that takes vⁿ to vⁿ⁺¹.
+inline Kick kick_after(long n, double time_step) {
+  const double time = static_cast<double>(n) * time_step;
+  return {time, time + time_step, time_step};
+}
+
 /// True if every value is finite.
 inline bool finite(const Snapshot& s) {
   const auto all_finite = [](const Field& f) {

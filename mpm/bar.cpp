@@ -27,9 +27,9 @@ struct NodalForce {
   double force;
 };
 
-/// A particle stands in a cell at an offset η = ξ − ½ from its centre, so that N₁ = ½ − η, N₂ = ½ + η (eq. 6): mirroring
-/// the bar or shifting it by whole cells leaves every bit of the shape functions alone. A particle on a node stays one
-/// ulp inside its cell: no node it touches is without mass, and the limit ξ → 0 is taken rather than 0/0.
+/// A particle stands in a cell at an offset η = ξ − ½ from its centre, so that N₁ = ½ − η, N₂ = ½ + η (eq. 6):
+/// mirroring the bar or shifting it by whole cells leaves every bit of the shape functions alone. A particle on a node
+/// stays one ulp inside its cell: no node it touches is without mass, and the limit ξ → 0 is taken rather than 0/0.
 constexpr double edge = 0.5 - 0x1p-54;
 
 template <class Law, bool convected>
@@ -88,49 +88,49 @@ class Bar {
 
   // Update stress first: (vⁿ, σⁿ⁻½) → (vⁿ⁺¹, σⁿ⁺½).
   void step_usf(long n, Ledger* ledger) {
-    const double time = static_cast<double>(n) * dt_;
+    const Kick kick = kick_after(n, dt_);
     map_momentum();
-    if (n > 0) {
+    if (n > 0) {  // the half-step from 0 to ½ is behind
       if (ledger) ledger->after_kick(work_rate(), dt_);
-      update_stress(dt_, ledger);              // from the particles' velocities
+      update_stress(dt_, ledger);  // with the particles' velocities on the grid
     }
-    internal_force();                          // eq. 19
-    external_force(time, time + dt_);          // eqs. 16, 17, 20
-    if (ledger) ledger->before_kick(work_rate(), impulse_rate(), dt_);
-    integrate_momentum(dt_);                   // eq. 18
-    update_velocity(dt_);                      // eq. 11
-    move_particles(dt_);                       // eqs. 9, 10
+    internal_force();      // eq. 19
+    external_force(kick);  // eqs. 16, 17, 20
+    if (ledger) ledger->before_kick(work_rate(), impulse_rate(), kick.length);
+    integrate_momentum(kick.length);  // eq. 18
+    update_velocity(kick.length);     // eq. 11
+    move_particles(dt_);              // eqs. 9, 10
     convect();
   }
 
-  // Update stress last: (σⁿ, vⁿ⁻½) → (σⁿ⁺¹, vⁿ⁺½). The first kick takes v⁰ to v½.
+  // Update stress last: (σⁿ, vⁿ⁻½) → (σⁿ⁺¹, vⁿ⁺½).
   void step_usl(long n, Ledger* ledger) {
-    const double time = static_cast<double>(n) * dt_, kick = n == 0 ? dt_ / 2 : dt_;
+    const Kick kick = kick_around(n, dt_);
     map_momentum();
-    internal_force();                          // eq. 19
-    external_force(n == 0 ? 0 : time - dt_ / 2, time + dt_ / 2);  // eqs. 16, 17, 20
-    if (ledger) ledger->before_kick(work_rate(), impulse_rate(), kick);
-    integrate_momentum(kick);                  // eq. 18
-    update_velocity(kick);                     // eq. 11
-    move_particles(dt_);                       // eqs. 9, 10
-    if (ledger) ledger->after_kick(work_rate(), kick);
-    update_stress(dt_, ledger);                // from the grid's own new velocities
+    internal_force();      // eq. 19
+    external_force(kick);  // eqs. 16, 17, 20
+    if (ledger) ledger->before_kick(work_rate(), impulse_rate(), kick.length);
+    integrate_momentum(kick.length);  // eq. 18
+    update_velocity(kick.length);     // eq. 11
+    move_particles(dt_);              // eqs. 9, 10
+    if (ledger) ledger->after_kick(work_rate(), kick.length);
+    update_stress(dt_, ledger);  // with the grid's own new velocities
     convect();
   }
 
-  // Modified update stress last: as USL, but the strain comes from the particles' new velocities, mapped once more.
+  // Modified update stress last: (σⁿ, vⁿ⁻½) → (σⁿ⁺¹, vⁿ⁺½).
   void step_musl(long n, Ledger* ledger) {
-    const double time = static_cast<double>(n) * dt_, kick = n == 0 ? dt_ / 2 : dt_;
+    const Kick kick = kick_around(n, dt_);
     map_momentum();
-    internal_force();                          // eq. 19
-    external_force(n == 0 ? 0 : time - dt_ / 2, time + dt_ / 2);  // eqs. 16, 17, 20
-    if (ledger) ledger->before_kick(work_rate(), impulse_rate(), kick);
-    integrate_momentum(kick);                  // eq. 18
-    update_velocity(kick);                     // eq. 11
-    move_particles(dt_);                       // eqs. 9, 10
+    internal_force();      // eq. 19
+    external_force(kick);  // eqs. 16, 17, 20
+    if (ledger) ledger->before_kick(work_rate(), impulse_rate(), kick.length);
+    integrate_momentum(kick.length);  // eq. 18
+    update_velocity(kick.length);     // eq. 11
+    move_particles(dt_);              // eqs. 9, 10
     map_momentum();
-    if (ledger) ledger->after_kick(work_rate(), kick);
-    update_stress(dt_, ledger);                // from the velocities mapped once more
+    if (ledger) ledger->after_kick(work_rate(), kick.length);
+    update_stress(dt_, ledger);  // with the particles' new velocities, mapped once more
     convect();
   }
 
@@ -223,8 +223,11 @@ class Bar {
   // --- particles to grid ---------------------------------------------------------------------------------------------
 
   void map_mass() {  // eq. 15
-    gather([&](std::size_t p) { return Pair{particle_mass_ * (0.5 - offset_[p]), particle_mass_ * (0.5 + offset_[p])}; },
-           [](Node& node, double mass) { node.mass = mass; });
+    gather(
+        [&](std::size_t p) {
+          return Pair{particle_mass_ * (0.5 - offset_[p]), particle_mass_ * (0.5 + offset_[p])};
+        },
+        [](Node& node, double mass) { node.mass = mass; });
   }
 
   void map_momentum() {
@@ -246,11 +249,11 @@ class Bar {
         [](Node& node, double force) { node.force = force; });
   }
 
-  void external_force(double from, double to) {
+  void external_force(const Kick& kick) {
     nodal_forces_.clear();
     for (std::size_t k = 0; k < scene_.loads.size(); ++k) {
       const Load& load = scene_.loads[k];
-      const double traction = (load.end == End::left ? -1 : 1) * load.mean_traction(from, to);
+      const double traction = (load.end == End::left ? -1 : 1) * load.mean_traction(kick.from, kick.to);
       if (load.transfer == Transfer::node) {
         nodal_forces_.push_back({load.end == End::left ? left_end_node() : right_end_node(), traction});
       } else {
@@ -258,7 +261,7 @@ class Bar {
       }
     }
     for (const NodalForce& f : nodal_forces_) node_[f.node].force += f.force;
-    if (scene_.body_force) add_body_force((from + to) / 2);
+    if (scene_.body_force) add_body_force((kick.from + kick.to) / 2);
   }
 
   struct LayerPoint {
@@ -282,7 +285,8 @@ class Bar {
       const double thickness = load.layer_thickness;
       for (std::size_t p = 0; p < offset_.size(); ++p) {
         const double begin = share_begin(p), end = share_begin(p + 1);
-        const double depth = load.end == End::left ? begin : scene_.length - end;  // of its outer face under the surface
+        const double depth =
+            load.end == End::left ? begin : scene_.length - end;  // of its outer face under the surface
         const double inside = std::min(end - begin, thickness - depth);
         if (inside > 0) layer.push_back({p, inside / thickness});
       }
@@ -451,10 +455,10 @@ class Bar {
   // Particles, in the order of the bar and hence of the cells:
   std::vector<double> offset_, velocity_, displacement_;
   std::vector<typename Law::State> state_;
-  std::vector<std::int32_t> cell_;            // only where particles move
-  std::vector<double> length_, advance_;      // likewise
-  std::vector<double> body_;                  // per node, only with a body force
-  std::vector<NodalForce> nodal_forces_;      // of the current step
+  std::vector<std::int32_t> cell_;        // only where particles move
+  std::vector<double> length_, advance_;  // likewise
+  std::vector<double> body_;              // per node, only with a body force
+  std::vector<NodalForce> nodal_forces_;  // of the current step
   std::vector<std::vector<LayerPoint>> layers_;
   std::string trouble_;
 };
@@ -477,10 +481,12 @@ double courant_limit(const std::vector<double>& positions, Scheme scheme, bool c
 }  // namespace
 
 double critical_time_step(const Scene& scene, int cells, const std::vector<double>& positions, Scheme scheme) {
-  return courant_limit(positions, scheme, scene.convected) * scene.length / cells / material::wave_speed(scene.material);
+  return courant_limit(positions, scheme, scene.convected) * scene.length / cells /
+         material::wave_speed(scene.material);
 }
 
-Record run(const Scene& scene, int cells, const std::vector<double>& positions, Scheme scheme, const Stepping& stepping) {
+Record run(const Scene& scene, int cells, const std::vector<double>& positions, Scheme scheme,
+           const Stepping& stepping) {
   if (cells < 1 || positions.empty()) throw std::invalid_argument("mpm needs at least one cell and one particle");
   const auto go = [&](const auto& law, auto moving) {
     Bar<std::decay_t<decltype(law)>, decltype(moving)::value> bar(scene, law, cells, positions, scheme, stepping);
@@ -496,9 +502,7 @@ Record run(const Scene& scene, int cells, const std::vector<double>& positions, 
     return record;
   };
   return std::visit(
-      [&](const auto& law) {
-        return scene.convected ? go(law, std::true_type{}) : go(law, std::false_type{});
-      },
+      [&](const auto& law) { return scene.convected ? go(law, std::true_type{}) : go(law, std::false_type{}); },
       scene.material);
 }
 

@@ -11,9 +11,9 @@ namespace diptych::mpm {
 /// When the stress is updated: first, last, or last with the nodal velocities mapped once more from the particles.
 enum class Scheme { usf, usl, musl };
 
-/// Largest stable time step of a bar with free ends [s]: closed forms for particles at natural coordinates ξ of every cell.
-/// Convected particles sweep all of ξ: then the least over the sweep for USF and MUSL; USL has no lower bound there, and
-/// the value for the positions at the start is given.
+/// Largest stable time step of a bar with free ends [s]: closed forms for particles at natural coordinates ξ of every
+/// cell. Convected particles sweep all of ξ: then the least over the sweep for USF and MUSL; USL has no lower bound
+/// there, and the value for the positions at the start is given.
 double critical_time_step(const Scene&, int cells, const std::vector<double>& positions, Scheme);
 
 /// Runs the scene with equal-mass particles at natural coordinates `positions` (each in [0, 1], ascending) of every

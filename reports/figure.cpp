@@ -1,5 +1,11 @@
 #include "reports/figure.hpp"
 
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -12,13 +18,6 @@
 #include <string_view>
 #include <utility>
 #include <vector>
-
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <fmt/format.h>
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
@@ -41,12 +40,12 @@ namespace fs = std::filesystem;
 constexpr double width = 900, left = 88, right = 24, column_gap = 36, row_gap = 14;
 constexpr double margin = 14, title_line = 24, note_line = 15, legend_line = 20, x_axis = 46;
 constexpr double label_line = 16, label_char = 7.0, note_char = 6.2, title_char = 9.4;  // generous for a sans face
-constexpr double marker_spacing = 7.5;                                // closer markers melt into a band
-constexpr double sample = 34, sample_gap = 7, entry_gap = 26;         // of the legend
+constexpr double marker_spacing = 7.5;                         // closer markers melt into a band
+constexpr double sample = 34, sample_gap = 7, entry_gap = 26;  // of the legend
 
 /// How a series looks. Colours after Okabe & Ito; shapes differ too, for print without colour.
 struct Look {
-  std::string line;    ///< gnuplot's line properties
+  std::string line;  ///< gnuplot's line properties
   bool markers = false;
 };
 Look look(const std::string& kind, std::size_t nth) {
@@ -57,8 +56,7 @@ Look look(const std::string& kind, std::size_t nth) {
     return {lines[nth % lines.size()], false};
   }
   if (kind == "mpm") {
-    constexpr std::array<const char*, 3> lines{"lc rgb '#d55e00' pt 6 ps 0.55",
-                                               "lc rgb '#009e73' pt 4 ps 0.5",
+    constexpr std::array<const char*, 3> lines{"lc rgb '#d55e00' pt 6 ps 0.55", "lc rgb '#009e73' pt 4 ps 0.5",
                                                "lc rgb '#cc79a7' pt 8 ps 0.65"};
     return {lines[nth % lines.size()], true};
   }
@@ -90,14 +88,14 @@ struct Heading {
 struct Layout {
   std::size_t columns = 1, rows = 1;
   double panel_width = 0, panel_height = 0, legend = 0, top = 0, height = 0;
-  double y_max = 0;  ///< of the axis, with room for the labels where data leave none
+  double y_max = 0;                              ///< of the axis, with room for the labels where data leave none
   std::vector<std::vector<std::string>> labels;  ///< lines of each panel's label
   std::vector<Box> places;
 };
 
 std::size_t characters(std::string_view text) {  // UTF-8 code points
-  return static_cast<std::size_t>(std::count_if(
-      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
 
 /// Breaks at spaces into lines of at most so many pixels, where words allow.
@@ -236,18 +234,17 @@ std::vector<Entry> entries_of(const Figure& figure) {
   std::vector<Entry> entries;
   for (const Figure::Panel& panel : figure.panels)
     for (const Figure::Series& series : panel.series) {
-      auto entry = std::find_if(entries.begin(), entries.end(), [&](const Entry& e) {
-        return e.label == series.label && e.kind == series.kind;
-      });
+      auto entry = std::find_if(entries.begin(), entries.end(),
+                                [&](const Entry& e) { return e.label == series.label && e.kind == series.kind; });
       if (entry == entries.end()) {
-        const auto nth = std::count_if(entries.begin(), entries.end(),
-                                       [&](const Entry& e) { return e.kind == series.kind; });
+        const auto nth =
+            std::count_if(entries.begin(), entries.end(), [&](const Entry& e) { return e.kind == series.kind; });
         entries.push_back({series.label, series.kind, look(series.kind, static_cast<std::size_t>(nth))});
         entry = std::prev(entries.end());
       }
       if (!entry->appearance.markers) continue;
-      auto interval = static_cast<std::size_t>(
-          std::ceil(static_cast<double>(series.curve.x.size()) * marker_spacing / across));
+      auto interval =
+          static_cast<std::size_t>(std::ceil(static_cast<double>(series.curve.x.size()) * marker_spacing / across));
       // Odd, so that markers do not always land on the same one of two particles in a cell.
       if (interval > 1 && interval % 2 == 0) ++interval;
       entry->interval = std::max(entry->interval, interval);
@@ -292,9 +289,10 @@ const char* style_of(const Entry& entry) {
 
 /// Margins that put a plot between these pixels, counted from the upper left corner.
 std::string at_pixels(double x0, double x1, double y0, double y1, double height) {
-  return fmt::format("set lmargin at screen {:.6f}; set rmargin at screen {:.6f}\n"
-                     "set tmargin at screen {:.6f}; set bmargin at screen {:.6f}\n",
-                     x0 / width, x1 / width, 1 - y0 / height, 1 - y1 / height);
+  return fmt::format(
+      "set lmargin at screen {:.6f}; set rmargin at screen {:.6f}\n"
+      "set tmargin at screen {:.6f}; set bmargin at screen {:.6f}\n",
+      x0 / width, x1 / width, 1 - y0 / height, 1 - y1 / height);
 }
 
 std::string end_mark(const Figure& figure) { return "# end of " + figure.id + "\n"; }
@@ -449,8 +447,8 @@ std::string script_of(const Figure& figure, const fs::path& directory) {
   const int error = errno;
   std::string script = contents(file.path);
   if (!good || !script.ends_with(end_mark(figure)))
-    throw std::runtime_error((directory / (figure.id + ".gp")).string() + ": cannot write: " +
-                             (error != 0 ? std::strerror(error) : "it came out incomplete"));
+    throw std::runtime_error((directory / (figure.id + ".gp")).string() +
+                             ": cannot write: " + (error != 0 ? std::strerror(error) : "it came out incomplete"));
   return script;
 }
 
@@ -465,7 +463,8 @@ std::string csv_field(const std::string& text) {  // RFC 4180
 
 std::string csv_of(const Figure& figure) {
   const auto meta = [](const std::string& key, std::string value) {
-    std::replace_if(value.begin(), value.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+    std::replace_if(
+        value.begin(), value.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
     return "# " + key + ": " + value + "\n";
   };
   const auto number = [](double v) { return std::isnan(v) ? std::string("nan") : fmt::format("{}", v); };

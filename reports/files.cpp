@@ -1,20 +1,19 @@
 #include "reports/files.hpp"
 
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <nlohmann/json.hpp>
+#include <pugixml.hpp>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
-
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
-#include <pugixml.hpp>
 
 namespace diptych::reports {
 namespace {
@@ -148,9 +147,9 @@ Json json_of(const Sample& sample, bool& finite) {
 }
 
 Json json_of(const Run& run) {
-  Json out{{"type", "run"},       {"case", run.case_id},         {"label", run.label()},   {"method", run.method},
-           {"cells", run.cells},  {"particles", run.particles},  {"status", run.status},   {"message", run.message},
-           {"invalid", run.invalid}};
+  Json out{{"type", "run"},        {"case", run.case_id},    {"label", run.label()},
+           {"method", run.method}, {"cells", run.cells},     {"particles", run.particles},
+           {"status", run.status}, {"message", run.message}, {"invalid", run.invalid}};
   Numbers numbers(out);
   numbers.also(run.finite);
   numbers.put("courant_asked", run.courant_asked);
@@ -181,9 +180,15 @@ Json json_of(const Run& run) {
 }
 
 Json json_of(const Gate& gate) {
-  Json out{{"type", "gate"},           {"case", gate.case_id},       {"id", gate.id},
-           {"kind", gate.kind},        {"quantity", gate.quantity},  {"formula", gate.formula},
-           {"reason", gate.reason},    {"verdict", to_string(gate.verdict)}, {"message", gate.message},
+  Json out{{"type", "gate"},
+           {"case", gate.case_id},
+           {"id", gate.id},
+           {"kind", gate.kind},
+           {"quantity", gate.quantity},
+           {"formula", gate.formula},
+           {"reason", gate.reason},
+           {"verdict", to_string(gate.verdict)},
+           {"message", gate.message},
            {"line", gate.line}};
   Numbers numbers(out);
   numbers.put("headroom", gate.headroom());
@@ -249,8 +254,13 @@ void write_file(const fs::path& path, const std::string& content) {
 }
 
 std::string results_jsonl(const std::vector<Case>& cases, const Provenance& made_by) {
-  const Json env{{"version", made_by.version}, {"commit", made_by.commit}, {"dirty", made_by.dirty},
-                 {"compiler", made_by.compiler}, {"flags", made_by.flags}, {"cpu", made_by.cpu}, {"os", made_by.os}};
+  const Json env{{"version", made_by.version},
+                 {"commit", made_by.commit},
+                 {"dirty", made_by.dirty},
+                 {"compiler", made_by.compiler},
+                 {"flags", made_by.flags},
+                 {"cpu", made_by.cpu},
+                 {"os", made_by.os}};
   std::string out;
   const auto add = [&](Json line) {
     line["env"] = env;

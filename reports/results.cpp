@@ -1,11 +1,11 @@
 #include "reports/results.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
-
-#include <fmt/format.h>
 
 namespace diptych::reports {
 namespace {

@@ -12,9 +12,9 @@ namespace diptych::reports {
 
 /// Error of one field at one time, divided by the field's scale.
 struct FieldError {
-  std::string field;  ///< "stress", "velocity", "displacement"
-  double time = 0;    ///< the field's own time level [the case's unit of time]
-  double scale = 0;   ///< what the error was divided by [case units]
+  std::string field;                ///< "stress", "velocity", "displacement"
+  double time = 0;                  ///< the field's own time level [the case's unit of time]
+  double scale = 0;                 ///< what the error was divided by [case units]
   double l1 = 0, l2 = 0, linf = 0;  ///< mean norms over the bar: L1 ≤ L2 ≤ L∞
   std::optional<double> predicted_l1, predicted_l2, predicted_linf;  ///< from theory, divided by the same scale
 };
@@ -33,8 +33,8 @@ struct Curve {
 };
 
 struct Sample {
-  double asked = 0;     ///< requested time in the case's unit of time, as written there
-  double time = 0;      ///< time reached at the nearest step [the same]
+  double asked = 0;  ///< requested time in the case's unit of time, as written there
+  double time = 0;   ///< time reached at the nearest step [the same]
   std::vector<FieldError> errors;
   std::vector<ProbeValue> probes;
   std::map<std::string, Curve> curves;        ///< field -> numerical field (filled only where a figure asks)
@@ -48,25 +48,25 @@ struct LedgerLine {
 
 struct Run {
   std::string case_id;
-  std::string method;     ///< "fem", "mpm-usf", "mpm-usl", "mpm-musl"
+  std::string method;  ///< "fem", "mpm-usf", "mpm-usl", "mpm-musl"
   int cells = 0;
-  double courant_asked = 0, courant = 0;  ///< C = cΔt/h as asked and as used
-  std::string particles;  ///< positions in the cell as in the case file, "" for FEM
-  std::string status;     ///< "completed", "unstable", "refused", "left-grid", "cancelled", "error"
-  std::string message;    ///< why, where not completed
-  double cell_size = 0;   ///< h [case units]
-  int unknowns = 0;       ///< degrees of freedom that move: nodes (FEM), particles (MPM)
+  double courant_asked = 0, courant = 0;      ///< C = cΔt/h as asked and as used
+  std::string particles;                      ///< positions in the cell as in the case file, "" for FEM
+  std::string status;                         ///< "completed", "unstable", "refused", "left-grid", "cancelled", "error"
+  std::string message;                        ///< why, where not completed
+  double cell_size = 0;                       ///< h [case units]
+  int unknowns = 0;                           ///< degrees of freedom that move: nodes (FEM), particles (MPM)
   double time_step = 0, time_step_limit = 0;  ///< used and critical [case units]
   long steps = 0;
   long element_steps = 0, particle_steps = 0, node_steps = 0;  ///< deterministic work
-  std::size_t bytes = 0;  ///< of the solver's arrays
+  std::size_t bytes = 0;                                       ///< of the solver's arrays
   double wall_seconds = 0;
   std::vector<std::string> features;       ///< active, as the solver reports
   bool finite = true;                      ///< every sampled number was finite
   std::string invalid;                     ///< why this run cannot be judged, empty if it can
   std::map<std::string, double> measures;  ///< per-run quantities: "energy.drift", "momentum.drift", "bits.mirror", ...
   std::vector<Sample> samples;
-  std::vector<LedgerLine> ledger;          ///< every step, filled only where it is asked for
+  std::vector<LedgerLine> ledger;  ///< every step, filled only where it is asked for
   /// "mpm-musl N=200 C=0.5 ppc=1"; particles that are not evenly spaced add their positions, "ppc=1@0.3".
   std::string label() const;
 };
@@ -85,15 +85,15 @@ struct Check {
 };
 
 struct Gate {
-  std::string case_id, id;     ///< full name is case_id/id
-  std::string kind;            ///< "exact", "constant", "order", "invariant", "limit"
-  std::string quantity;        ///< "stress.L2", "energy.drift", ...
-  std::string formula;         ///< what is compared, in words and symbols
-  std::string reason;          ///< where the tolerance comes from
+  std::string case_id, id;  ///< full name is case_id/id
+  std::string kind;         ///< "exact", "constant", "order", "invariant", "limit"
+  std::string quantity;     ///< "stress.L2", "energy.drift", ...
+  std::string formula;      ///< what is compared, in words and symbols
+  std::string reason;       ///< where the tolerance comes from
   Verdict verdict = Verdict::invalid;
-  std::string message;         ///< why, where not passed
-  std::vector<Check> checks;   ///< never empty for a judged gate
-  int line = 0;                ///< of its declaration in the case file
+  std::string message;        ///< why, where not passed
+  std::vector<Check> checks;  ///< never empty for a judged gate
+  int line = 0;               ///< of its declaration in the case file
   /// Least (distance to the nearer edge)/(half width) over the checks: 1 in the middle of the band, 0 on its edge,
   /// < 0 where failed, -infinity for a value that is not a number. A band with one infinite edge is measured by the
   /// other edge's size. NaN without checks. (A bound |value| <= max is the band [-max, max], not [0, max].)
@@ -102,7 +102,7 @@ struct Gate {
 
 /// A figure to draw: stacked panels, one per time, with the exact solution under both methods.
 struct Figure {
-  std::string id;        ///< "fig1": names the files
+  std::string id;  ///< "fig1": names the files
   std::string title;
   std::vector<std::string> notes;  ///< lines under the title: parameters, what is our choice
   std::string x_label, y_label;
@@ -121,9 +121,9 @@ struct Figure {
 
 struct Case {
   std::string id, title, why, claim, path;
-  std::string time_unit;    ///< "L/c" or "s"
-  std::string units;        ///< "SI" or "paper"
-  std::vector<Run> runs;    ///< in the order of the axes
+  std::string time_unit;  ///< "L/c" or "s"
+  std::string units;      ///< "SI" or "paper"
+  std::vector<Run> runs;  ///< in the order of the axes
   std::vector<Gate> gates;
   std::vector<Figure> figures;
 };

@@ -1,5 +1,9 @@
 #include "reports/tables.hpp"
 
+#include <fmt/format.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_fit.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,10 +12,6 @@
 #include <map>
 #include <stdexcept>
 #include <string_view>
-
-#include <fmt/format.h>
-#include <gsl/gsl_errno.h>
-#include <gsl/gsl_fit.h>
 
 namespace diptych::reports {
 namespace {
@@ -170,16 +170,19 @@ Grid cost_grid(const Case& data, const Group& group) {
   const bool elements = group.first().method == "fem";
   Grid grid;
   grid.title = "Cost";
-  grid.heads = {"cells", "h [" + unit(data, "length") + "]", "unknowns",   "Courant used", "steps",
-                elements ? "element-steps" : "particle-steps", "node-steps", "bytes",        "wall time [s]"};
+  grid.heads = {"cells",        "h [" + unit(data, "length") + "]",
+                "unknowns",     "Courant used",
+                "steps",        elements ? "element-steps" : "particle-steps",
+                "node-steps",   "bytes",
+                "wall time [s]"};
   for (const Run* run : group.runs) {
     Row row{{fmt::to_string(run->cells), general(run->cell_size)}, {}};
     if (has_numbers(*run)) {
       const long work = elements ? run->element_steps : run->particle_steps;
-      row.cells.insert(row.cells.end(),
-                       {fmt::to_string(run->unknowns), general(run->courant), fmt::to_string(run->steps),
-                        fmt::to_string(work), fmt::to_string(run->node_steps), fmt::to_string(run->bytes),
-                        number(run->wall_seconds, "{:.4g}")});
+      row.cells.insert(
+          row.cells.end(),
+          {fmt::to_string(run->unknowns), general(run->courant), fmt::to_string(run->steps), fmt::to_string(work),
+           fmt::to_string(run->node_steps), fmt::to_string(run->bytes), number(run->wall_seconds, "{:.4g}")});
     } else {
       row.remark = remark(*run);
     }
@@ -265,8 +268,8 @@ Grid error_grid(const Case& data, const Group& group, double asked, const std::s
 // ---- text
 
 std::size_t columns(std::string_view text) {  // code points; nothing here is wide or combining
-  return static_cast<std::size_t>(std::count_if(
-      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
 
 /// Breaks at spaces so that lines starting `indent` columns in stay within the page.
@@ -321,20 +324,60 @@ std::string text_of(const Grid& grid) {
 
 /// Characters that need a command: LaTeX's own, and those that its default fonts lack.
 const std::map<std::uint32_t, std::string_view>& latex_commands() {
-  static const std::map<std::uint32_t, std::string_view> commands{
-      {U'\\', R"(\textbackslash{})"}, {U'{', R"(\{)"}, {U'}', R"(\})"}, {U'$', R"(\$)"}, {U'&', R"(\&)"},
-      {U'#', R"(\#)"}, {U'%', R"(\%)"}, {U'_', R"(\_)"}, {U'^', R"(\textasciicircum{})"},
-      {U'~', R"(\textasciitilde{})"}, {U'<', "$<$"}, {U'>', "$>$"}, {U'|', "$|$"}, {U'"', "''"},
-      {U'\n', " "}, {U'\t', " "}, {U'\r', " "},
-      {U'±', R"($\pm$)"}, {U'·', R"($\cdot$)"}, {U'×', R"($\times$)"}, {U'²', "$^2$"}, {U'³', "$^3$"},
-      {U'½', R"($\frac12$)"}, {U'°', R"($^\circ$)"}, {U'µ', R"($\mu$)"},
-      {U'–', "--"}, {U'—', "---"}, {U'−', "$-$"}, {U'…', R"(\ldots{})"}, {U'√', R"($\surd$)"}, {U'∞', R"($\infty$)"},
-      {U'≤', R"($\leq$)"}, {U'≥', R"($\geq$)"}, {U'≈', R"($\approx$)"}, {U'→', R"($\rightarrow$)"},
-      {U'∂', R"($\partial$)"}, {U'Δ', R"($\Delta$)"}, {U'α', R"($\alpha$)"}, {U'β', R"($\beta$)"},
-      {U'γ', R"($\gamma$)"}, {U'δ', R"($\delta$)"}, {U'ε', R"($\varepsilon$)"}, {U'κ', R"($\kappa$)"},
-      {U'λ', R"($\lambda$)"}, {U'μ', R"($\mu$)"}, {U'ν', R"($\nu$)"}, {U'ξ', R"($\xi$)"}, {U'π', R"($\pi$)"},
-      {U'ρ', R"($\rho$)"}, {U'σ', R"($\sigma$)"}, {U'τ', R"($\tau$)"}, {U'φ', R"($\varphi$)"},
-      {U'ω', R"($\omega$)"}, {U'‖', R"($\|$)"}};
+  static const std::map<std::uint32_t, std::string_view> commands{{U'\\', R"(\textbackslash{})"},
+                                                                  {U'{', R"(\{)"},
+                                                                  {U'}', R"(\})"},
+                                                                  {U'$', R"(\$)"},
+                                                                  {U'&', R"(\&)"},
+                                                                  {U'#', R"(\#)"},
+                                                                  {U'%', R"(\%)"},
+                                                                  {U'_', R"(\_)"},
+                                                                  {U'^', R"(\textasciicircum{})"},
+                                                                  {U'~', R"(\textasciitilde{})"},
+                                                                  {U'<', "$<$"},
+                                                                  {U'>', "$>$"},
+                                                                  {U'|', "$|$"},
+                                                                  {U'"', "''"},
+                                                                  {U'\n', " "},
+                                                                  {U'\t', " "},
+                                                                  {U'\r', " "},
+                                                                  {U'±', R"($\pm$)"},
+                                                                  {U'·', R"($\cdot$)"},
+                                                                  {U'×', R"($\times$)"},
+                                                                  {U'²', "$^2$"},
+                                                                  {U'³', "$^3$"},
+                                                                  {U'½', R"($\frac12$)"},
+                                                                  {U'°', R"($^\circ$)"},
+                                                                  {U'µ', R"($\mu$)"},
+                                                                  {U'–', "--"},
+                                                                  {U'—', "---"},
+                                                                  {U'−', "$-$"},
+                                                                  {U'…', R"(\ldots{})"},
+                                                                  {U'√', R"($\surd$)"},
+                                                                  {U'∞', R"($\infty$)"},
+                                                                  {U'≤', R"($\leq$)"},
+                                                                  {U'≥', R"($\geq$)"},
+                                                                  {U'≈', R"($\approx$)"},
+                                                                  {U'→', R"($\rightarrow$)"},
+                                                                  {U'∂', R"($\partial$)"},
+                                                                  {U'Δ', R"($\Delta$)"},
+                                                                  {U'α', R"($\alpha$)"},
+                                                                  {U'β', R"($\beta$)"},
+                                                                  {U'γ', R"($\gamma$)"},
+                                                                  {U'δ', R"($\delta$)"},
+                                                                  {U'ε', R"($\varepsilon$)"},
+                                                                  {U'κ', R"($\kappa$)"},
+                                                                  {U'λ', R"($\lambda$)"},
+                                                                  {U'μ', R"($\mu$)"},
+                                                                  {U'ν', R"($\nu$)"},
+                                                                  {U'ξ', R"($\xi$)"},
+                                                                  {U'π', R"($\pi$)"},
+                                                                  {U'ρ', R"($\rho$)"},
+                                                                  {U'σ', R"($\sigma$)"},
+                                                                  {U'τ', R"($\tau$)"},
+                                                                  {U'φ', R"($\varphi$)"},
+                                                                  {U'ω', R"($\omega$)"},
+                                                                  {U'‖', R"($\|$)"}};
   return commands;
 }
 
@@ -456,13 +499,42 @@ std::string latex_table(const Case& data) {
 
 std::string csv_table(const Case& data) {
   const std::string length = "[" + unit(data, "length") + "]", time = "[" + data.time_unit + "]";
-  std::string out = csv_line({"case", "method", "particles", "cells", "h " + length, "unknowns", "courant asked [-]",
-                              "courant used [-]", "time step " + time, "time step limit " + time, "steps",
-                              "element steps", "particle steps", "node steps", "bytes [B]", "wall time [s]", "status",
-                              "message", "time asked [" + data.time_unit + "]", "time reached " + time, "field",
-                              "field time " + time, "scale", "scale unit", "L1 [-]", "L1 order [-]",
-                              "L1 predicted [-]", "L1 ratio [-]", "L2 [-]", "L2 order [-]", "L2 predicted [-]",
-                              "L2 ratio [-]", "Linf [-]", "Linf order [-]", "Linf predicted [-]", "Linf ratio [-]"});
+  std::string out = csv_line({"case",
+                              "method",
+                              "particles",
+                              "cells",
+                              "h " + length,
+                              "unknowns",
+                              "courant asked [-]",
+                              "courant used [-]",
+                              "time step " + time,
+                              "time step limit " + time,
+                              "steps",
+                              "element steps",
+                              "particle steps",
+                              "node steps",
+                              "bytes [B]",
+                              "wall time [s]",
+                              "status",
+                              "message",
+                              "time asked [" + data.time_unit + "]",
+                              "time reached " + time,
+                              "field",
+                              "field time " + time,
+                              "scale",
+                              "scale unit",
+                              "L1 [-]",
+                              "L1 order [-]",
+                              "L1 predicted [-]",
+                              "L1 ratio [-]",
+                              "L2 [-]",
+                              "L2 order [-]",
+                              "L2 predicted [-]",
+                              "L2 ratio [-]",
+                              "Linf [-]",
+                              "Linf order [-]",
+                              "Linf predicted [-]",
+                              "Linf ratio [-]"});
   const std::size_t error_columns = 18;  // from "time asked" on
 
   for (const Group& group : groups(data)) {
@@ -471,12 +543,24 @@ std::string csv_table(const Case& data) {
       const bool judged = has_numbers(*run);
       const std::string status = run->status == "completed" && !judged ? "invalid" : run->status;
       const std::string message = run->invalid.empty() || !run->message.empty() ? run->message : run->invalid;
-      const std::vector<std::string> about{
-          data.id, run->method, run->particles, fmt::to_string(run->cells), exact(run->cell_size),
-          fmt::to_string(run->unknowns), exact(run->courant_asked), exact(run->courant), exact(run->time_step),
-          exact(run->time_step_limit), fmt::to_string(run->steps), fmt::to_string(run->element_steps),
-          fmt::to_string(run->particle_steps), fmt::to_string(run->node_steps), fmt::to_string(run->bytes),
-          exact(run->wall_seconds), status, message};
+      const std::vector<std::string> about{data.id,
+                                           run->method,
+                                           run->particles,
+                                           fmt::to_string(run->cells),
+                                           exact(run->cell_size),
+                                           fmt::to_string(run->unknowns),
+                                           exact(run->courant_asked),
+                                           exact(run->courant),
+                                           exact(run->time_step),
+                                           exact(run->time_step_limit),
+                                           fmt::to_string(run->steps),
+                                           fmt::to_string(run->element_steps),
+                                           fmt::to_string(run->particle_steps),
+                                           fmt::to_string(run->node_steps),
+                                           fmt::to_string(run->bytes),
+                                           exact(run->wall_seconds),
+                                           status,
+                                           message};
       bool written = false;
       for (const Sample& sample : run->samples) {
         if (!judged) break;

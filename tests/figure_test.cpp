@@ -1,4 +1,10 @@
 // Figures: the script and the data carry every number, and a failing gnuplot is noticed.
+#include "reports/figure.hpp"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -8,13 +14,6 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
-
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <boost/test/unit_test.hpp>
-
-#include "reports/figure.hpp"
 
 namespace {
 

@@ -158,7 +158,8 @@ BOOST_AUTO_TEST_CASE(saturated_errors_have_no_order) {
 
 BOOST_AUTO_TEST_CASE(errors_on_no_line_have_no_order_even_if_their_slope_is_right) {
   const double off[] = {5, 0.2, 0.2, 5};  // these leave the fitted slope alone
-  for (std::size_t r = 0; r < 4; ++r) error(r, "displacement").l2 = 1e-2 * off[r] * std::pow(2.0, -static_cast<double>(r));
+  for (std::size_t r = 0; r < 4; ++r)
+    error(r, "displacement").l2 = 1e-2 * off[r] * std::pow(2.0, -static_cast<double>(r));
   BOOST_TEST((judged(0).verdict == Verdict::invalid));
 }
 
@@ -199,7 +200,7 @@ BOOST_AUTO_TEST_CASE(exit_status_is_zero_only_if_every_declared_gate_was_judged_
   BOOST_TEST(sum_up({result}, 3, 0).exit_code == 10);
   result.gates[1].verdict = Verdict::unstable;
   BOOST_TEST(sum_up({result}, 3, 0).exit_code == 12);
-  result.gates[2].verdict = Verdict::invalid;          // a later verdict never hides an earlier one
+  result.gates[2].verdict = Verdict::invalid;  // a later verdict never hides an earlier one
   BOOST_TEST(sum_up({result}, 3, 0).exit_code == 13);
 }
 

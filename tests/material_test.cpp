@@ -1,7 +1,7 @@
+#include "material/material.hpp"
+
 #include <boost/test/unit_test.hpp>
 #include <cmath>
-
-#include "material/material.hpp"
 
 using namespace diptych::material;
 namespace tt = boost::test_tools;

@@ -26,7 +26,9 @@ BOOST_AUTO_TEST_SUITE(mpm_bar)
 
 BOOST_AUTO_TEST_CASE(critical_time_steps_are_the_closed_forms) {
   const Scene scene = step_scene();
-  const auto courant = [&](const std::vector<double>& xi, Scheme s) { return mpm::critical_time_step(scene, 50, xi, s) * 100 * 50; };
+  const auto courant = [&](const std::vector<double>& xi, Scheme s) {
+    return mpm::critical_time_step(scene, 50, xi, s) * 100 * 50;
+  };
   BOOST_TEST(courant({0.5}, Scheme::musl) == 2, tt::tolerance(1e-12));
   BOOST_TEST(courant({0.5}, Scheme::usf) == 2, tt::tolerance(1e-12));
   BOOST_TEST(courant({0.25, 0.75}, Scheme::musl) == std::sqrt(3), tt::tolerance(1e-12));
@@ -61,7 +63,8 @@ BOOST_DATA_TEST_CASE(first_step_by_hand, bdata::make({0, 1, 2}), which) {
 }
 
 BOOST_DATA_TEST_CASE(no_load_gives_exactly_nothing, bdata::make({0, 1, 2}), which) {
-  const Record r = mpm::run(step_scene(0), 20, {0.3, 0.8}, schemes[static_cast<std::size_t>(which)], steps_at(0.5, 20, 300));
+  const Record r =
+      mpm::run(step_scene(0), 20, {0.3, 0.8}, schemes[static_cast<std::size_t>(which)], steps_at(0.5, 20, 300));
   BOOST_TEST(all_zero(r.snapshots[0].stress));
   BOOST_TEST(all_zero(r.snapshots[0].velocity));
   BOOST_TEST(all_zero(r.snapshots[0].displacement));
@@ -128,7 +131,8 @@ BOOST_AUTO_TEST_CASE(particles_against_a_wall_never_stop_the_run) {
   BOOST_TEST_CONTEXT(r.message) { BOOST_TEST((r.outcome == Outcome::completed)); }
 }
 
-// Mass and length follow the particles: a bar stretched over twice as many cells holds the same mass and stress balance.
+// Mass and length follow the particles: a bar stretched over twice as many cells holds the same mass and stress
+// balance.
 BOOST_AUTO_TEST_CASE(momentum_is_conserved_while_particles_cross_cells) {
   Scene scene;
   scene.length = 1;
@@ -172,7 +176,8 @@ BOOST_AUTO_TEST_CASE(boundary_layer_brings_in_the_whole_traction) {
   }
 }
 
-// Central differences in disguise: particles on the nodes' side of nothing, ξ → 0 recovers FEM's magic step at Courant 1.
+// Central differences in disguise: particles on the nodes' side of nothing, ξ → 0 recovers FEM's magic step at
+// Courant 1.
 BOOST_AUTO_TEST_CASE(one_particle_body_and_one_cell_run) {
   const Record r = mpm::run(step_scene(), 1, {0.5}, Scheme::musl, steps_at(0.5, 1, 10));
   BOOST_TEST((r.outcome == Outcome::completed));

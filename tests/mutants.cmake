@@ -78,33 +78,34 @@ mutant(mpm-density FILE mpm/bar.cpp
         bar.step.fixed-free/usl-order bar.mode.fixed-free/stress-constant)
 
 mutant(fem-load FILE fem/bar.cpp
-  FIND    "load.mean_traction(from, to)"
-  REPLACE "0.99 * load.mean_traction(from, to)"
+  FIND    "load.mean_traction(kick.from, kick.to)"
+  REPLACE "0.99 * load.mean_traction(kick.from, kick.to)"
   KILLS bar.step.fixed-free/fem-magic-step bar.step.fixed-free/fem-magic-displacement bar.step.fixed-free/fem-constant
         bar.step.free-free/constant bar.traction.node/end-stress bar.step.fixed-free/displacement-linf)
 mutant(mpm-load FILE mpm/bar.cpp
-  FIND    "load.mean_traction(from, to)"
-  REPLACE "0.99 * load.mean_traction(from, to)"
+  FIND    "load.mean_traction(kick.from, kick.to)"
+  REPLACE "0.99 * load.mean_traction(kick.from, kick.to)"
   KILLS bar.step.fixed-free/musl-magic-step bar.step.fixed-free/musl-constant bar.step.fixed-free/usf-constant
         bar.step.fixed-free/usl-constant bar.traction.node/end-stress bar.traction.layer/end-stress)
 
-mutant(fem-full-first-step FILE fem/bar.cpp
-  FIND    "n == 0 ? dt_ / 2 : dt_"
-  REPLACE "dt_"
+mutant(full-first-step FILE material/stepping.hpp
+  FIND    "if (n == 0) return {0, half, half};"
+  REPLACE "if (n == 0) return {0, time_step, time_step};"
   KILLS bar.step.fixed-free/fem-magic-step bar.step.fixed-free/fem-magic-displacement bar.step.fixed-free/fem-constant
+        bar.step.fixed-free/musl-magic-step bar.step.fixed-free/musl-constant bar.step.fixed-free/usl-constant
         bar.impulse.free-free/constant)
-mutant(mpm-full-first-step FILE mpm/bar.cpp
-  FIND    "n == 0 ? dt_ / 2 : dt_"
-  REPLACE "dt_"
-  KILLS bar.step.fixed-free/musl-magic-step bar.step.fixed-free/musl-constant bar.step.fixed-free/usl-constant)
+mutant(usf-kicks-half-a-step-early FILE material/stepping.hpp
+  FIND    "return {time, time + time_step, time_step};"
+  REPLACE "return {time, time + time_step / 2, time_step / 2};"
+  KILLS bar.step.fixed-free/usf-constant)
 
 mutant(fem-load-a-step-late FILE fem/bar.cpp
-  FIND    "load.mean_traction(from, to)"
-  REPLACE "(from < dt_ ? 0 : load.mean_traction(from - dt_, to - dt_))"
+  FIND    "load.mean_traction(kick.from, kick.to)"
+  REPLACE "(kick.from < dt_ ? 0 : load.mean_traction(kick.from - dt_, kick.to - dt_))"
   KILLS bar.step.fixed-free/fem-magic-step bar.step.fixed-free/fem-constant bar.step.free-free/constant)
 mutant(mpm-load-a-step-late FILE mpm/bar.cpp
-  FIND    "load.mean_traction(from, to)"
-  REPLACE "(from < dt_ ? 0 : load.mean_traction(from - dt_, to - dt_))"
+  FIND    "load.mean_traction(kick.from, kick.to)"
+  REPLACE "(kick.from < dt_ ? 0 : load.mean_traction(kick.from - dt_, kick.to - dt_))"
   KILLS bar.step.fixed-free/musl-magic-step bar.step.fixed-free/musl-constant bar.step.fixed-free/usf-constant)
 
 mutant(fem-damping FILE fem/bar.cpp
@@ -186,14 +187,14 @@ mutant(fem-body-force-a-step-late FILE fem/bar.cpp
 
 mutant(musl-without-the-second-map FILE mpm/bar.cpp
   FIND    "    map_momentum();
-    if (ledger) ledger->after_kick(work_rate(), kick);"
-  REPLACE "    if (ledger) ledger->after_kick(work_rate(), kick);"
+    if (ledger) ledger->after_kick(work_rate(), kick.length);"
+  REPLACE "    if (ledger) ledger->after_kick(work_rate(), kick.length);"
   KILLS bar.stability.limits/usf-musl-centred bar.stability.limits/usf-musl-two bar.stability.limits/usf-musl-others)
 mutant(usl-with-a-second-map FILE mpm/bar.cpp
-  FIND    "    move_particles(dt_);                       // eqs. 9, 10
-    if (ledger) ledger->after_kick(work_rate(), kick);"
+  FIND    "    move_particles(dt_);              // eqs. 9, 10
+    if (ledger) ledger->after_kick(work_rate(), kick.length);"
   REPLACE "    move_particles(dt_); map_momentum();
-    if (ledger) ledger->after_kick(work_rate(), kick);"
+    if (ledger) ledger->after_kick(work_rate(), kick.length);"
   KILLS bar.step.fixed-free/usl-constant bar.step.fixed-free/usl-order bar.stability.limits/usl-centred
         bar.stability.limits/usl-two bar.stability.limits/usl-free-end bar.stability.blow-up/detected)
 mutant(usf-without-its-half-step FILE mpm/bar.cpp

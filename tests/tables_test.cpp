@@ -1,14 +1,13 @@
 // Convergence tables against numbers worked out by hand.
+#include "reports/tables.hpp"
+
+#include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
-
-#include <boost/test/unit_test.hpp>
-
-#include "reports/tables.hpp"
 
 namespace {
 
@@ -153,7 +152,7 @@ BOOST_AUTO_TEST_CASE(text_shows_orders_predictions_and_scale) {
   BOOST_TEST(has(table, "least-squares order:  L1 2.000 ± "));
   BOOST_TEST(has(table, "errors divided by 2 Pa"));
   BOOST_TEST(has(table, "bar: a bar, \"stepped\""));
-  BOOST_TEST(words(row(table, "Cost", "40"))[5] == "3200");  // element-steps
+  BOOST_TEST(words(row(table, "Cost", "40"))[5] == "3200");                                     // element-steps
   BOOST_TEST(table.find(row(table, "stress", "10")) < table.find(row(table, "stress", "20")));  // coarse to fine
   BOOST_TEST(table.find(row(table, "stress", "20")) < table.find(row(table, "stress", "40")));
 }
