@@ -50,34 +50,10 @@ class Bar {
         grid_cells_(first_cell_ + cells_ + (convected && scene.right == Support::free ? cells_ : 0)),
         node_(grid_cells_ + 1),
         cell_start_(grid_cells_ + 1) {
-    const std::size_t count = cells_ * per_cell_;
-    offset_.resize(count);
-    state_.resize(count);
-    velocity_.resize(count);
-    displacement_.resize(count);
-    if constexpr (convected) {
-      cell_.resize(count);
-      length_.assign(count, h_ / static_cast<double>(per_cell_));
-      advance_.resize(count);
-    }
-    for (std::size_t p = 0; p < count; ++p) {
-      offset_[p] = std::clamp(positions[p % per_cell_] - 0.5, -edge, edge);
-      if constexpr (convected) cell_[p] = static_cast<std::int32_t>(first_cell_ + p / per_cell_);
-      if (scene.initial_stress) state_[p].stress = scene.initial_stress(reference(p));
-      if (scene.initial_velocity) velocity_[p] = scene.initial_velocity(reference(p));
-    }
-    for (std::size_t c = 0; c <= grid_cells_; ++c) {
-      cell_start_[c] = std::clamp(c, first_cell_, first_cell_ + cells_) * per_cell_ - first_cell_ * per_cell_;
-    }
+    place_particles();
     choose_boundary_layers();
     map_mass();
-    if (scheme_ == Scheme::usf) {
-      // USF keeps the velocity at whole steps and stress and displacement half-way between them: bring both there.
-      map_momentum();
-      update_stress<false>(dt_ / 2, nullptr);
-      move_particles(dt_ / 2);
-      convect();
-    }
+    if (scheme_ == Scheme::usf) bring_usf_to_its_half_step();
   }
 
   void step(long n, Ledger* ledger) {
@@ -175,6 +151,36 @@ class Bar {
 
  private:
   // --- particles and cells -------------------------------------------------------------------------------------------
+
+  void place_particles() {
+    const std::size_t count = cells_ * per_cell_;
+    offset_.resize(count);
+    state_.resize(count);
+    velocity_.resize(count);
+    displacement_.resize(count);
+    if constexpr (convected) {
+      cell_.resize(count);
+      length_.assign(count, h_ / static_cast<double>(per_cell_));
+      advance_.resize(count);
+    }
+    for (std::size_t p = 0; p < count; ++p) {
+      offset_[p] = std::clamp(positions_[p % per_cell_] - 0.5, -edge, edge);
+      if constexpr (convected) cell_[p] = static_cast<std::int32_t>(first_cell_ + p / per_cell_);
+      if (scene_.initial_stress) state_[p].stress = scene_.initial_stress(reference(p));
+      if (scene_.initial_velocity) velocity_[p] = scene_.initial_velocity(reference(p));
+    }
+    for (std::size_t c = 0; c <= grid_cells_; ++c) {
+      cell_start_[c] = (std::clamp(c, first_cell_, first_cell_ + cells_) - first_cell_) * per_cell_;
+    }
+  }
+
+  /// USF keeps the velocity at whole steps and stress and displacement half-way between them.
+  void bring_usf_to_its_half_step() {
+    map_momentum();
+    update_stress<false>(dt_ / 2, nullptr);
+    move_particles(dt_ / 2);
+    convect();
+  }
 
   /// Length of bar that a particle stands for: constant unless the particles move.
   double length(std::size_t p) const {
