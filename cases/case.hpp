@@ -88,8 +88,8 @@ struct FigureSpec {
   std::vector<double> times;          ///< subset of the sample times; empty: all
   std::vector<std::string> captions;  ///< one per time: what to see
   int cells = 0;                      ///< which runs to draw
-  double courant = 0;                 ///< FEM and, unless mpm_courant says otherwise, MPM
-  std::vector<std::string> methods;   ///< drawn ones
+  double courant = 0;
+  std::vector<std::string> methods;  ///< drawn ones
   std::vector<double> particles{0.5};
   std::optional<std::array<double, 2>> range;  ///< of the field's axis
 };

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "cases/case_file.hpp"
+#include "cases/messages.hpp"
 
 namespace diptych::cases {
 

@@ -1,0 +1,275 @@
+#include "cases/case_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cases/build.hpp"
+#include "cases/case_file.hpp"
+#include "cases/expression.hpp"
+
+namespace diptych::cases {
+namespace {
+
+/// What a `constant` gate may be measured against, and where that theory holds.
+struct Theory {
+  std::string name, solution;
+  Names quantities, methods;
+};
+const std::vector<Theory> all_theories{
+    {"discrete-step", "bar-wave", {"stress.L2", "displacement.L2"}, methods},
+    {"airy-step", "bar-wave", {"stress.L2", "displacement.L2", "displacement.Linf"}, {"fem", "mpm-usf", "mpm-musl"}},
+    {"end-equilibrium", "", {}, methods},  // the loads' own: probes of stress, whatever the solution
+    {"mode", "standing-mode", quantities_of("order", {}), methods},
+};
+
+bool bar_is_known(const Case& c) {
+  const double speed = material::wave_speed(c.material);
+  return c.length > 0 && std::isfinite(speed) && speed > 0;
+}
+
+/// The features that the scene switches on, each with the key that does it.
+std::map<std::string, std::string> features_in_use(const Case& c) {
+  std::map<std::string, std::string> used;
+  if (std::holds_alternative<material::Elastic>(c.material))
+    used["elastic"] = "material.model = \"elastic\"";
+  else
+    used["plasticity"] = "material.model = \"hardening\"";
+  if (!c.body_force.empty()) used["body-force"] = "[body_force]";
+  if (c.convected) used["convection"] = "bar.displacements = \"finite\"";
+  for (const LoadSpec& load : c.loads)
+    if (load.transfer == Transfer::boundary_layer) used["boundary-layer"] = "[[load]] transfer = \"boundary-layer\"";
+  return used;
+}
+
+/// A norm of an error needs something exact to compare with.
+void check_comparable(const Place& quantity, const GateSpec& gate, const Case& c) {
+  if (gate.quantity.empty() || gate.quantity.starts_with("probe.")) return;
+  const std::string field = gate.quantity.substr(0, gate.quantity.find('.'));
+  const ExactSpec& exact = c.exact;
+  if (exact.solution == "none")
+    quantity.refuse(words(gate.quantity) + " in a case without an exact solution",
+                    joined(invariants) + " (kind invariant), or give [exact]");
+  if (exact.solution != "expressions") return;
+  const std::string& formula = field == "stress"     ? exact.stress
+                               : field == "velocity" ? exact.velocity
+                                                     : exact.displacement;
+  if (formula.empty())
+    quantity.refuse(words(gate.quantity), "fields that [exact] gives: exact." + field + " is missing");
+}
+
+void check_theory(const Place& predict, const GateSpec& gate, const Case& c) {
+  const auto theory = std::find_if(all_theories.begin(), all_theories.end(),
+                                   [&](const Theory& one) { return one.name == gate.predict; });
+  if (theory == all_theories.end() || c.exact.solution.empty()) return;
+  const std::string name = words(gate.predict), solution = "exact.solution = " + words(c.exact.solution);
+  if (!theory->solution.empty() && theory->solution != c.exact.solution) {
+    Names possible;
+    for (const Theory& one : all_theories)
+      if (one.solution == c.exact.solution) possible.push_back(one.name);
+    predict.refuse(name + ", which is a theory of " + words(theory->solution),
+                   possible.empty() ? "no such gate: " + solution + " has no theory"
+                                    : joined(possible) + ", theories of " + solution);
+    return;
+  }
+  if (!gate.quantity.empty() && !theory->quantities.empty() && !contains(theory->quantities, gate.quantity))
+    predict.refuse(name + " for " + words(gate.quantity), "for " + joined(theory->quantities));
+  std::set<std::string> others;
+  for (const Leaf& run : runs_of(gate, c))
+    if (!contains(theory->methods, run.method)) others.insert(run.method);
+  for (const std::string& method : others)
+    predict.refuse(name + " for method " + words(method), "for " + joined(theory->methods),
+                   "say so in where = { method = ... }");
+  if (gate.predict != "end-equilibrium") return;
+  const bool of_stress = std::any_of(c.probes.begin(), c.probes.end(), [&](const Probe& probe) {
+    return gate.quantity == "probe." + probe.id && probe.field == "stress";
+  });
+  if (!gate.quantity.empty() && !of_stress)
+    predict.refuse(name + " for " + words(gate.quantity), "for probes of stress");
+  const bool loaded = std::any_of(c.loads.begin(), c.loads.end(), [](const LoadSpec& load) {
+    return load.history.empty() || load.history == "step" || load.history == "ramp";
+  });
+  if (!loaded) predict.refuse(name + " without a steady load", "with a [[load]] of history step or ramp");
+}
+
+void check_order(Table& t, const GateSpec& gate, const Case& c) {
+  if (gate.band && gate.expect && (*gate.expect < (*gate.band)[0] || *gate.expect > (*gate.band)[1]))
+    t.place("expect").refuse(words(*gate.expect),
+                             "an order within the band, " + words((*gate.band)[0]) + " to " + words((*gate.band)[1]));
+  std::map<std::string, int> meshes;  // of each series that differs in nothing else
+  for (const Leaf& run : runs_of(gate, c))
+    ++meshes[run.method + ", courant = " + words(run.courant) +
+             (run.method == "fem" ? "" : ", particles = " + words(run.particles))];
+  for (const auto& [series, count] : meshes) {
+    if (count >= gate.levels_min) continue;
+    t.place("levels_min")
+        .refuse(fmt::format("{} values of cells for {}", count, series),
+                fmt::format("at least levels_min = {}", gate.levels_min));
+    return;  // the other series differ in the same way
+  }
+}
+
+}  // namespace
+
+Names theories() {
+  Names names;
+  for (const Theory& theory : all_theories) names.push_back(theory.name);
+  return names;
+}
+
+Names quantities_of(const std::string& kind, const Case& c) {
+  if (kind == "invariant") return invariants;
+  if (kind == "limit") return {"critical_courant", "stable"};
+  Names names;
+  for (const std::string& field : fields)
+    for (const char* norm : {".L1", ".L2", ".Linf"}) names.push_back(field + norm);
+  if (kind == "exact" || kind == "constant")
+    for (const Probe& probe : c.probes) names.push_back("probe." + probe.id);
+  return names;
+}
+
+Axes all_axes(const Case& c) {
+  Axes all;
+  all.particles.clear();
+  const auto add = [](auto& to, const auto& from) {
+    to.insert(to.end(), from.begin(), from.end());
+    std::sort(to.begin(), to.end());
+    to.erase(std::unique(to.begin(), to.end()), to.end());
+  };
+  for (const Axes& block : c.axes) {
+    add(all.method, block.method);
+    add(all.cells, block.cells);
+    add(all.courant, block.courant);
+    add(all.particles, block.particles);
+  }
+  return all;
+}
+
+double bar_in(const std::string& unit, const Case& c) {
+  if (unit != "cells") return unit == "m" ? c.length : 1;
+  const std::vector<int> cells = all_axes(c).cells;
+  return cells.empty() ? 0 : cells.front();
+}
+
+std::vector<Leaf> runs_of(const GateSpec& gate, const Case& c) {
+  std::vector<Leaf> runs = leaves(c);
+  std::erase_if(runs, [&](const Leaf& run) { return !matches(gate.where, run); });
+  return runs;
+}
+
+bool ascending(const std::vector<double>& values) {
+  return std::adjacent_find(values.begin(), values.end(), std::greater_equal<>()) == values.end();
+}
+
+void check_expression(const Place& place, const std::string& text, const Names& variables, const Case& c) {
+  if (text.empty()) return;
+  const bool known = bar_is_known(c);
+  std::map<std::string, double> constants = expression_constants(c);
+  if (!known)  // reported already: any values will do to find the mistakes of the formula itself
+    for (const char* name : {"L", "E", "rho", "c"}) constants[name] = 0.7;
+  try {
+    const Expression expression(text, variables, constants);
+    if (!known) return;
+    const bool of_x = contains(variables, "x"), of_t = contains(variables, "t");
+    std::vector<double> xs{0}, ts{0};
+    if (of_x) xs = {0, c.length / 2, c.length};
+    if (of_t)
+      for (const double time : c.times) ts.push_back(time * time_unit(c, c.time_unit));
+    for (const double x : xs) {
+      for (const double t : ts) {
+        const double value = of_x && of_t ? expression(x, t) : expression(of_x ? x : t);
+        if (std::isfinite(value)) continue;
+        place.say(
+            fmt::format("found {}, which is {} at {}{}{}; allowed: finite values at x in {{0, L/2, L}} and t in "
+                        "{{0, sample times}}",
+                        words(text), std::isnan(value) ? "NaN" : words(value), of_x ? "x = " + words(x) : "",
+                        of_x && of_t ? ", " : "", of_t ? "t = " + words(t) : ""));
+        return;
+      }
+    }
+  } catch (const InputError& error) {
+    place.say(error.what());
+  }
+}
+
+void check_features(const Place& place, const Case& c) {
+  if (c.features.empty()) return;
+  const auto used = features_in_use(c);
+  const std::string allowed = "; allowed: exactly the features in use";
+  for (const auto& [feature, key] : used)
+    if (!contains(c.features, feature))
+      place.say("missing " + words(feature) + ", which " + key + " switches on" + allowed);
+  for (const std::string& feature : c.features)
+    if (!used.contains(feature))
+      place.say("found " + words(feature) + ", which nothing in the scene switches on" + allowed);
+}
+
+void check_steps(const Place& place, const Axes& axes, const Case& c) {
+  constexpr double most = 1e12;
+  if (c.times.empty() || !bar_is_known(c)) return;
+  const double end =
+      c.times.back() * time_unit(c, c.time_unit) * material::wave_speed(c.material) / c.length;  // in L/c
+  const double courant = *std::min_element(axes.courant.begin(), axes.courant.end());
+  const int cells = *std::max_element(axes.cells.begin(), axes.cells.end());
+  const double steps = end * cells / courant;
+  if (!(steps <= most))
+    place.say("found " + words(courant) + ", which needs " + words(steps) + " steps on " + words(cells) +
+              " cells; allowed: at most " + words(most) + " steps");
+}
+
+void check_methods(const Place& place, const Axes& axes, const Case& c) {
+  if (!contains(axes.method, "fem")) return;
+  for (const auto& [feature, key] : features_in_use(c))
+    if (feature == "boundary-layer" || feature == "convection")
+      place.refuse("\"fem\" together with " + key, "MPM methods only: mpm-usf, mpm-usl, mpm-musl");
+}
+
+/// What the named solutions leave out, they cannot be compared with.
+void check_solution(const Place& place, const Case& c) {
+  const std::string& solution = c.exact.solution;
+  const bool wave = solution == "bar-wave";
+  if (!wave && solution != "standing-mode") return;
+  const auto refuse = [&](bool present, const std::string& what, const std::string& why) {
+    if (present)
+      place.say("found " + words(solution) + " together with " + what + "; " + why +
+                "; allowed: leave that out, or give solution = \"expressions\"");
+  };
+  refuse(std::holds_alternative<material::Hardening>(c.material), "material.model = \"hardening\"",
+         "its waves are elastic");
+  refuse(!c.body_force.empty(), "[body_force]", "it knows no body force");
+  refuse(!wave && !c.loads.empty(), "[[load]]", "its ends carry no traction");
+  refuse(!c.initial_velocity.empty() || !c.initial_stress.empty(), "[initial]",
+         wave ? "its bar starts from rest" : "the mode itself sets the initial velocity");
+  if (!wave) return;
+  bool pulls = false;
+  for (const LoadSpec& load : c.loads) {
+    refuse(load.history == "expression", "a load of history = \"expression\"", "its loads are step, ramp and impulse");
+    pulls = pulls || load.traction != 0 || load.history == "expression";
+  }
+  if (!pulls)
+    place.say("found \"bar-wave\" without a load; allowed: at least one [[load]] with a traction other than 0");
+}
+
+void check_gate(Table& t, const GateSpec& gate, const Case& c) {
+  if (gate.kind == "constant") check_theory(t.place("predict"), gate, c);
+  if (contains({"exact", "constant", "order"}, gate.kind)) check_comparable(t.place("quantity"), gate, c);
+  const bool of_ledger = gate.quantity.starts_with("energy.") || gate.quantity.starts_with("momentum.");
+  if (of_ledger && !c.ledger)
+    t.place("quantity").refuse(words(gate.quantity) + " with run.ledger = false", "with the ledger, run.ledger = true");
+  if (gate.kind == "order") check_order(t, gate, c);
+}
+
+/// Bands of slopes alone do not tell a right discontinuous solution from a wrong one.
+void check_gates(const Place& place, const Case& c) {
+  const auto any = [&](const Names& kinds) {
+    return std::any_of(c.gates.begin(), c.gates.end(),
+                       [&](const GateSpec& gate) { return gate.kind.empty() || contains(kinds, gate.kind); });
+  };
+  if (any({"order"}) && !any({"exact", "constant", "invariant"}))
+    place.say(
+        "found order gates alone, which a wrong solution can pass; allowed: with a gate of kind exact, constant "
+        "or invariant beside them");
+}
+
+}  // namespace diptych::cases

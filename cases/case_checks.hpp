@@ -1,0 +1,41 @@
+// What no single value of a case file tells: whether scene, axes, solution, expressions and gates go together. Each
+// check notes its mistakes at the place given, and passes over what is empty because it has been reported already.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cases/case.hpp"
+#include "cases/leaf.hpp"
+#include "cases/toml_table.hpp"
+
+namespace diptych::cases {
+
+inline const Names methods{"fem", "mpm-usf", "mpm-usl", "mpm-musl"};
+inline const Names fields{"stress", "velocity", "displacement"};
+inline const Names invariants{"energy.drift",      "energy.lost", "momentum.drift",
+                              "bits.power-of-two", "bits.mirror", "bits.repeat"};
+
+/// What a `constant` gate may be measured against.
+Names theories();
+/// Quantities that a gate of this kind may judge in this case.
+Names quantities_of(const std::string& kind, const Case&);
+/// The values of all blocks of axes together; none where the axes hold a mistake.
+Axes all_axes(const Case&);
+/// The length of the bar in "m", "L" or "cells" of the coarsest grid; 0 where it is not known.
+double bar_in(const std::string& unit, const Case&);
+/// The runs that a gate speaks of.
+std::vector<Leaf> runs_of(const GateSpec&, const Case&);
+/// Each of them greater than the one before.
+bool ascending(const std::vector<double>&);
+
+/// Compiles a formula of `variables` ("x", "t") and tries it at x in {0, L/2, L} and t in {0, the sample times}.
+void check_expression(const Place&, const std::string& text, const Names& variables, const Case&);
+void check_features(const Place&, const Case&);
+void check_steps(const Place& courant, const Axes&, const Case&);
+void check_methods(const Place& method, const Axes&, const Case&);
+void check_solution(const Place& solution, const Case&);
+void check_gate(Table&, const GateSpec&, const Case&);
+void check_gates(const Place&, const Case&);
+
+}  // namespace diptych::cases
