@@ -597,6 +597,13 @@ BOOST_AUTO_TEST_CASE(scene_and_methods_agree) {
   wrong_own("\"plasticity\"", "\"elastic\", \"plasticity\"", {"model.features", "found \"elastic\""});
 }
 
+BOOST_AUTO_TEST_CASE(particles_outside_by_round_off_are_on_the_face) {
+  const std::string text = replaced(whole, "particles = [[0.5]", "particles = [[-1e-18, 1.0000000000000002], [0.5]");
+  const Case c = parse_case(text, "bar.toml");
+  BOOST_TEST(c.axes[0].particles[0] == (std::vector<double>{0, 1}), boost::test_tools::per_element());
+  BOOST_TEST(message(replaced(whole, "particles = [[0.5]", "particles = [[-1e-6], [0.5]")) != "");
+}
+
 BOOST_AUTO_TEST_CASE(solutions_hold_for_the_scene) {
   std::string text = replaced(own,
                               "solution = \"expressions\"\nstress = \"E*A*x*t\"\nvelocity = \"A*x\"\n"
