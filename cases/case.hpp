@@ -112,6 +112,7 @@ struct Case {
   std::string time_unit;      ///< "s" or "L/c"
   std::vector<double> times;  ///< ascending, > 0
   std::vector<Probe> probes;
+  std::string scene;  ///< all keys but those of gates, figures and prose in one canonical line, for gates.lock
   std::vector<GateSpec> gates;
   std::vector<FigureSpec> figures;
   bool allow_unstable = false;

@@ -260,6 +260,43 @@ void check_gate(Table& t, const GateSpec& gate, const Case& c) {
   if (gate.kind == "order") check_order(t, gate, c);
 }
 
+void check_where(const Place& place, const GateSpec& gate, const Case& c) {
+  const std::vector<Leaf> runs = runs_of(gate, c);
+  const auto met = [&](const char* key, const auto& values, const auto& of_run) {
+    for (const auto& value : values) {
+      const auto has = [&](const Leaf& run) { return of_run(run) == value; };
+      if (std::any_of(runs.begin(), runs.end(), has)) continue;
+      place.say(
+          fmt::format("found {} = {} in a combination of values that no run has; allowed: combinations within one "
+                      "[axes]",
+                      key, words(value)));
+      return;
+    }
+  };
+  if (runs.empty()) {
+    place.say("found a combination of values that no run has; allowed: combinations within one [axes]");
+    return;
+  }
+  met("method", gate.where.method, [](const Leaf& run) { return run.method; });
+  met("cells", gate.where.cells, [](const Leaf& run) { return run.cells; });
+  met("courant", gate.where.courant, [](const Leaf& run) { return run.courant; });
+  const bool fem_alone = std::all_of(runs.begin(), runs.end(), [](const Leaf& run) { return run.particles.empty(); });
+  if (fem_alone) return;  // it has no particles to tell apart
+  met("particles", gate.where.particles, [](const Leaf& run) { return run.particles; });
+}
+
+/// One leaf has one critical Courant number.
+void check_limits(const Place& place, const Case& c) {
+  const GateSpec* first = nullptr;
+  for (const GateSpec& gate : c.gates) {
+    if (gate.quantity != "critical_courant") continue;
+    if (first && first->steps != gate.steps)
+      place.say(fmt::format("found steps = {} in {} and {} in {}; allowed: the same for every gate on critical_courant",
+                            first->steps, words(first->id), gate.steps, words(gate.id)));
+    if (!first) first = &gate;
+  }
+}
+
 /// Bands of slopes alone do not tell a right discontinuous solution from a wrong one.
 void check_gates(const Place& place, const Case& c) {
   const auto any = [&](const Names& kinds) {
@@ -270,6 +307,7 @@ void check_gates(const Place& place, const Case& c) {
     place.say(
         "found order gates alone, which a wrong solution can pass; allowed: with a gate of kind exact, constant "
         "or invariant beside them");
+  check_limits(place, c);
 }
 
 }  // namespace diptych::cases

@@ -35,6 +35,8 @@ void check_features(const Place&, const Case&);
 void check_steps(const Place& courant, const Axes&, const Case&);
 void check_methods(const Place& method, const Axes&, const Case&);
 void check_solution(const Place& solution, const Case&);
+/// Each value that `where` names must be met by some run of the gate, or it would be judged on less than it says.
+void check_where(const Place& where, const GateSpec&, const Case&);
 void check_gate(Table&, const GateSpec&, const Case&);
 void check_gates(const Place&, const Case&);
 

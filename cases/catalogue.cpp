@@ -69,9 +69,13 @@ std::vector<Case> select_cases(const std::vector<std::string>& selectors) {
   if (selectors.empty()) return all_cases();
   std::vector<Case> chosen, known;
   for (const std::string& selector : selectors) {
-    if (selector.ends_with(".toml")) {
-      chosen.push_back(read_case(selector));
-      continue;
+    if (const auto ending = selector.rfind(".toml"); ending != std::string::npos) {
+      const std::string path = selector.substr(0, ending + 5), gate = selector.substr(ending + 5);
+      if (gate.empty() || gate[0] == '/') {
+        const Case c = read_case(path);
+        chosen.push_back(gate.empty() ? c : only(c, gate.substr(1)));
+        continue;
+      }
     }
     if (known.empty()) known = all_cases();
     const auto slash = selector.find('/');
@@ -114,6 +118,7 @@ std::vector<Case> select_cases(const std::vector<std::string>& selectors) {
 std::string declarations(const std::vector<Case>& cases) {
   std::vector<std::string> lines;
   for (const Case& c : cases) {
+    lines.push_back(fmt::format("{} {}\n", c.id, c.scene));
     for (const GateSpec& gate : c.gates) lines.push_back(fmt::format("{}/{} {}\n", c.id, gate.id, gate.declaration));
   }
   std::sort(lines.begin(), lines.end());
@@ -126,17 +131,18 @@ std::vector<std::string> differences_from_lock(const std::vector<Case>& cases, b
   std::map<std::string, bool> declared;
   for (const Case& c : cases) {
     if (!comes_with_program(c)) continue;
-    for (const GateSpec& gate : c.gates) {
-      const std::string name = c.id + "/" + gate.id;
+    const auto compare = [&](const std::string& name, const std::string& declaration) {
       declared[name] = true;
       const auto locked = lock.find(name);
       if (locked == lock.end()) {
         differences.push_back(name + " is not in cases/gates.lock");
-      } else if (locked->second != gate.declaration) {
+      } else if (locked->second != declaration) {
         differences.push_back(
-            fmt::format("{} is declared as\n    {}\n  but locked as\n    {}", name, gate.declaration, locked->second));
+            fmt::format("{} is declared as\n    {}\n  but locked as\n    {}", name, declaration, locked->second));
       }
-    }
+    };
+    compare(c.id, c.scene);
+    for (const GateSpec& gate : c.gates) compare(c.id + "/" + gate.id, gate.declaration);
   }
   if (whole) {
     for (const auto& [name, declaration] : lock) {

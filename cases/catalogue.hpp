@@ -15,10 +15,11 @@ std::vector<Case> all_cases();
 /// that gate is kept. Throws InputError where a selector fits nothing, with the nearest id.
 std::vector<Case> select_cases(const std::vector<std::string>& selectors);
 
-/// "case/gate declaration", one line per gate, sorted: the content of cases/gates.lock.
+/// "case scene" and "case/gate declaration", a line each, sorted: the content of cases/gates.lock. A gate is loosened
+/// by a wider tolerance, and as well by fewer meshes or methods.
 std::string declarations(const std::vector<Case>&);
-/// How the gates of these cases differ from cases/gates.lock, one line each; empty where they agree. Cases that do not
-/// come with the program are not in the lock. With `whole`, gates in the lock that no case declares are named too.
+/// How these cases and their gates differ from cases/gates.lock, one line each; empty where they agree. Cases that do
+/// not come with the program are not in the lock. With `whole`, gates in the lock that no case declares are named too.
 std::vector<std::string> differences_from_lock(const std::vector<Case>&, bool whole);
 
 }  // namespace diptych::cases

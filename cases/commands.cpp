@@ -54,8 +54,12 @@ std::vector<reports::Case> measure(const std::vector<Case>& cases, const Options
 }
 
 void print_gate(const reports::Gate& gate) {
-  std::string margin =
-      gate.verdict == reports::Verdict::pass ? fmt::format("{:4.0f} % headroom", 100 * gate.headroom()) : gate.message;
+  const auto bits = [](const reports::Check& check) { return check.low == check.high; };
+  std::string margin = gate.message;
+  if (gate.verdict == reports::Verdict::pass) {
+    const bool to_the_bit = std::all_of(gate.checks.begin(), gate.checks.end(), bits);
+    margin = to_the_bit ? "exactly" : fmt::format("{:4.0f} % headroom", 100 * gate.headroom());
+  }
   fmt::print("{:8} {}/{}  {}  {}\n", to_string(gate.verdict), gate.case_id, gate.id, gate.formula, margin);
 }
 
@@ -97,6 +101,16 @@ void write_ledgers(const reports::Case& result, const std::filesystem::path& dir
     reports::write_file(directory / (name + ".csv"), reports::ledger_csv(run));
   }
   fmt::print("{}\n", directory.string());
+}
+
+/// Where results are to go must take them before the runs are paid for.
+void prepare(const std::filesystem::path& out) {
+  std::error_code problem;
+  std::filesystem::create_directories(out, problem);
+  if (problem || access(out.c_str(), W_OK) != 0) {
+    throw InputError(fmt::format("--out: cannot write to {}: {}", out.string(),
+                                 problem ? problem.message() : "permission denied or read-only"));
+  }
 }
 
 /// Draws every figure whose id is wanted (all for an empty list); returns how many pictures could not be drawn.
@@ -161,10 +175,15 @@ bool names_figure(const std::string& wanted, const std::string& id) {
 
 int run_command(const Options& options, const std::atomic<bool>& cancelled) {
   const auto cases = select_cases(options.selectors);
-  const auto results = measure(cases, options, cancelled);
+  prepare(options.out);
+  auto results = measure(cases, options, cancelled);
+  for (auto& result : results) {
+    for (auto& figure : result.figures) figure.id = result.id + "." + figure.id;  // two cases may call theirs the same
+  }
   for (const auto& result : results) {
     fmt::print("{}\n", reports::text_table(result));
     write_tables(result, options.out / "tables");
+    fmt::print("{}\n", (options.out / "tables" / (result.id + ".{txt,csv,tex}")).string());
     if (options.ledger) write_ledgers(result, options.out / "ledgers" / result.id);
   }
   const int undrawn = draw_figures(results, options.out / "figures", {});
@@ -198,12 +217,13 @@ int explain_command(const Options& options, const std::atomic<bool>& cancelled) 
           gate.case_id, gate.id, to_string(gate.verdict), gate.message.empty() ? "every check passed" : gate.message,
           cases[i].title, cases[i].path.string(), gate.line, gate.kind, gate.formula, gate.reason);
       for (const auto& check : gate.checks) {
-        fmt::print("  {} {:60} value {:12.6g}{} judged {:12.6g} in [{:g}, {:g}]\n", check.passed ? "ok  " : "FAIL",
+        fmt::print("  {} {:60} value {:12.6g}{} judged {:12.6g} in [{}, {}]\n", check.passed ? "ok  " : "FAIL",
                    check.what, check.value,
                    check.predicted ? fmt::format("  predicted {:12.6g}", *check.predicted) : "", check.judged,
                    check.low, check.high);
       }
-      if (!gate.checks.empty()) fmt::print("  headroom    {:.0f} %\n\n", 100 * gate.headroom());
+      if (gate.verdict == reports::Verdict::pass) fmt::print("  headroom    {:.0f} %\n", 100 * gate.headroom());
+      fmt::print("\n");
     }
   }
   int declared = 0;
@@ -226,6 +246,19 @@ int list_command(const Options& options) {
   return all_passed;
 }
 
+namespace {
+
+/// " for 1 L/c from 0 s": when a load acts.
+std::string timing(const LoadSpec& load) {
+  std::string text;
+  if (load.history == "impulse") text += fmt::format(" for {:g} {}", load.duration.value, load.duration.unit);
+  if (load.history == "ramp") text += fmt::format(" over {:g} {}", load.rise.value, load.rise.unit);
+  if (load.start.value > 0) text += fmt::format(" from {:g} {}", load.start.value, load.start.unit);
+  return text;
+}
+
+}  // namespace
+
 int show_command(const Options& options) {
   for (const Case& c : select_cases(options.selectors)) {
     const auto end_text = [](Support s) { return s == Support::fixed ? "fixed" : "free"; };
@@ -236,7 +269,7 @@ int show_command(const Options& options) {
                material::wave_speed(c.material), c.units, end_text(c.left), end_text(c.right),
                c.convected ? "finite" : "infinitesimal");
     for (const LoadSpec& load : c.loads) {
-      fmt::print("  load       {} on the {} end, {}, through the {}\n", load.history,
+      fmt::print("  load       {}{} on the {} end, {}, through the {}\n", load.history, timing(load),
                  load.end == End::left ? "left" : "right",
                  load.history == "expression" ? load.expression : fmt::format("traction {:g}", load.traction),
                  load.transfer == Transfer::node ? "boundary node" : "boundary layer (eq. 16)");
@@ -244,6 +277,10 @@ int show_command(const Options& options) {
     if (!c.body_force.empty()) fmt::print("  body force {}\n", c.body_force);
     if (!c.initial_velocity.empty()) fmt::print("  velocity   {} at the start\n", c.initial_velocity);
     if (!c.initial_stress.empty()) fmt::print("  stress     {} at the start\n", c.initial_stress);
+    if (c.exact.solution == "expressions") {
+      fmt::print("  exact      stress {}; velocity {}; displacement {}\n", c.exact.stress, c.exact.velocity,
+                 c.exact.displacement);
+    }
     fmt::print("  exact      {}\n  features   {}\n  sampled    t = {} {}\n", c.exact.solution,
                fmt::join(c.features, ", "), fmt::join(c.times, ", "), c.time_unit);
     fmt::print("  runs       {}\n", leaves(c).size());
@@ -251,8 +288,11 @@ int show_command(const Options& options) {
       fmt::print("             {} {} cells, Courant {:g}{}\n", leaf.method, leaf.cells, leaf.courant,
                  leaf.particles.empty() ? "" : ", particles at " + particles_label(leaf.particles));
     }
-    for (const GateSpec& gate : c.gates)
-      fmt::print("  gate       {:24} {}\n             {}\n", gate.id, gate.declaration, gate.reason);
+    for (const Probe& probe : c.probes) {
+      fmt::print("  probe      {} {} at {:g} {}\n", probe.id, probe.field, probe.at.value, probe.at.unit);
+    }
+    for (const GateSpec& gate : c.gates) fmt::print("  gate       {:24} {}\n", gate.id, gate.declaration);
+    for (const FigureSpec& figure : c.figures) fmt::print("  figure     {}\n", figure.id);
   }
   return all_passed;
 }
@@ -278,6 +318,7 @@ int paper_command(const Options& options, const std::atomic<bool>& cancelled) {
                         [&](const FigureSpec& f) { return wanted.count(f.id) > 0; });
   });
   const auto out = options.out / "paper";
+  prepare(out);
   const auto results = measure(cases, options, cancelled);
   const bool stopped = any_cancelled(results);
   for (const auto& result : results) write_tables(result, out / "tables");

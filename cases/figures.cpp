@@ -52,12 +52,16 @@ std::vector<reports::Figure> make_figures(const Case& c, const std::vector<repor
     figure.x_label = fmt::format("x [{}]", c.units == "paper" ? "paper's units" : "m");
     figure.y_label = fmt::format("{} {} [{}]", spec.field, symbol_of(spec.field), unit_of(c, spec.field));
     figure.x_max = c.length;
+    const bool mpm = spec.methods != std::vector<std::string>{"fem"};
+    const std::string particles =
+        mpm ? fmt::format("particles at ξ = {} of each cell; ", particles_label(spec.particles)) : "";
     figure.notes.push_back(
-        fmt::format("{} cells; Courant number {:g}; particles at ξ = {} of each cell; {} displacements; E = {:g}, ρ = "
-                    "{:g}, L = {:g}",
-                    spec.cells, spec.courant, particles_label(spec.particles), c.convected ? "finite" : "infinitesimal",
+        fmt::format("{} cells; Courant number {:g}; {}{} displacements; E = {:g}, ρ = {:g}, L = {:g}", spec.cells,
+                    spec.courant, particles, c.convected ? "finite" : "infinitesimal",
                     material::youngs_modulus(c.material), material::density(c.material), c.length));
-    figure.notes.push_back("The times are our choice, to show what the paper describes.");
+    if (!c.paper_figures.empty()) {
+      figure.notes.push_back("The times are our choice, to show what the paper describes.");
+    }
     const auto& times = spec.times.empty() ? c.times : spec.times;
     for (std::size_t i = 0; i < times.size(); ++i) {
       reports::Figure::Panel panel;

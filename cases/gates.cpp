@@ -144,13 +144,20 @@ void hold(Gate& result, Check check) {
 }
 
 void judge_maximum(const GateSpec& gate, const std::vector<Reading>& readings, Gate& result) {
+  if (gate.expect) {
+    result.formula = fmt::format("|{} − {:g}| ≤ {:g}", gate.quantity, *gate.expect, *gate.max);
+    for (const Reading& r : readings) {
+      hold(result, {r.what, r.value, *gate.expect, -*gate.max, *gate.max, r.value - *gate.expect, false});
+    }
+    return;
+  }
   result.formula = fmt::format("|{}| ≤ {:g}", gate.quantity, *gate.max);
   for (const Reading& r : readings) hold(result, {r.what, r.value, 0.0, -*gate.max, *gate.max, r.value, false});
 }
 
 void judge_ratio(const GateSpec& gate, const std::vector<Reading>& readings, Gate& result) {
-  result.formula = fmt::format("{} / predicted by {} within [{:g}, {:g}]", gate.quantity, gate.predict,
-                               (*gate.ratio)[0], (*gate.ratio)[1]);
+  result.formula = fmt::format("{} / predicted by {} within [{}, {}]", gate.quantity, gate.predict, (*gate.ratio)[0],
+                               (*gate.ratio)[1]);
   for (const Reading& r : readings) {
     if (!r.predicted)
       throw Stop{Verdict::invalid, fmt::format("{}: {} has no prediction for {}", r.what, gate.predict, gate.quantity)};
@@ -268,8 +275,7 @@ Gate judge(const Case& c, const GateSpec& gate, const std::vector<Run>& runs) {
   for (const Check& check : result.checks) {
     if (check.passed) continue;
     if (result.verdict == Verdict::pass) {
-      result.message =
-          fmt::format("{}: {:.6g} is outside [{:g}, {:g}]", check.what, check.judged, check.low, check.high);
+      result.message = fmt::format("{}: {:.6g} is outside [{}, {}]", check.what, check.judged, check.low, check.high);
     }
     result.verdict = Verdict::fail;
   }

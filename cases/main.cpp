@@ -100,12 +100,17 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? all_passed : usage;
+    status = app.exit(error) == 0 ? all_passed : usage;
   } catch (const InputError& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return usage;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "diptych: %s\n", error.what());
+    return unstable_or_error;
+  }
+  // A verdict that could not be written was not given.
+  if (std::fflush(stdout) != 0 || std::ferror(stdout)) {
+    std::perror("diptych: standard output");
     return unstable_or_error;
   }
   return status;

@@ -6,7 +6,8 @@
 
 namespace diptych::cases {
 
-/// Mean norms over the bar: (1/L ∫ |e|^p dx)^(1/p) and the largest |e| met; so L1 ≤ L2 ≤ L∞.
+/// Mean norms over the bar of the error divided by the exact solution's scale: (1/L ∫ |e|^p dx)^(1/p) and the largest
+/// |e| met; so L1 ≤ L2 ≤ L∞.
 struct Norms {
   double l1 = 0, l2 = 0, linf = 0;
 };

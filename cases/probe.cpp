@@ -28,7 +28,10 @@ reports::ProbeValue read_probe(const Case& c, const Leaf& leaf, const Probe& pro
   reports::ProbeValue value{probe.id, value_at(field, x), {}};
   for (const LoadSpec& load : c.loads) {
     const bool in_end_cell = load.end == End::left ? x < cell : x > c.length - cell;
-    if (probe.field == "stress" && in_end_cell && (load.history == "step" || load.history == "ramp")) {
+    const bool ramp = load.history == "ramp", step = load.history == "step";
+    const double steady =
+        load.start.value * time_unit(c, load.start.unit) + (ramp ? load.rise.value * time_unit(c, load.rise.unit) : 0);
+    if (probe.field == "stress" && in_end_cell && (step || ramp) && field.time > steady) {
       value.predicted = load.traction * end_share(c, leaf, load);
     }
   }

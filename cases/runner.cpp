@@ -64,7 +64,7 @@ Stepping plan(const Case& c, const Scene& scene, const Leaf& leaf) {
   for (const double time : c.times) {
     stepping.sample_after.push_back(std::max(1L, std::lround(time * unit / stepping.time_step)));
   }
-  stepping.ledger = c.ledger;
+  stepping.books = c.ledger ? Books::sums : Books::off;
   return stepping;
 }
 
@@ -73,37 +73,28 @@ bool asks_for(const Case& c, const Leaf& leaf, const std::string& quantity) {
                      [&](const GateSpec& gate) { return gate.quantity == quantity && matches(gate.where, leaf); });
 }
 
-void measure_ledger(const Case& c, const Record& record, reports::Run& run) {
-  if (record.ledger.empty()) return;
-  double energy = 0, lost = 0, kinetic = 0, momentum = 0;
-  bool finite = true;
-  for (const LedgerLine& line : record.ledger) {
-    energy = std::max(energy, line.kinetic + std::abs(line.strain) + line.dissipated);
-    kinetic = std::max(kinetic, line.kinetic);
-    lost = std::max(lost, std::abs(line.lost));
-    momentum = std::max(momentum, std::abs(line.momentum - line.impulse));
-    finite = finite && std::isfinite(line.lost) && std::isfinite(line.momentum) && std::isfinite(line.impulse);
-  }
-  if (!finite) {
-    run.finite = false;
-    return;
-  }
+void measure_ledger(const Case& c, const LedgerSums& sums, reports::Run& run) {
+  run.finite = run.finite && sums.finite;
+  if (!sums.finite || !(sums.held > 0)) return;  // where nothing moved there is no measure, and a gate on it is INVALID
   const double mass = material::density(c.material) * c.length;
   const auto relative = [](double value, double scale) { return scale > 0 ? value / scale : value; };
-  run.measures["energy.drift"] = relative(lost, energy);
-  run.measures["energy.lost"] = relative(record.ledger.back().lost, energy);
-  run.measures["momentum.drift"] = relative(momentum, std::sqrt(2 * mass * kinetic));
+  run.measures["energy.drift"] = relative(sums.lost, sums.held);
+  run.measures["energy.lost"] = relative(sums.last.lost, sums.held);
+  run.measures["momentum.drift"] = relative(sums.momentum, std::sqrt(2 * mass * sums.kinetic));
 }
 
-/// Numbers that differ between two records after scaling; a different number of samples counts as one more.
+/// Numbers that differ between two records after scaling; a different number of samples counts as one more. NaN where
+/// there are only zeros.
 double differing(const Record& a, const Record& b, const PowersOfTwo& by, bool mirror) {
   double count = a.snapshots.size() == b.snapshots.size() && a.outcome == b.outcome ? 0 : 1;
+  bool moved = false;
   const auto compare = [&](const Field& first, const Field& second, double factor, double sign) {
     const std::size_t n = first.value.size();
     if (second.value.size() != n) ++count;
     for (std::size_t i = 0; i < std::min(n, second.value.size()); ++i) {
       const double other = mirror ? sign * second.value[n - 1 - i] : second.value[i];
       if (!(first.value[i] * factor == other)) ++count;
+      moved = moved || first.value[i] != 0;
     }
   };
   for (std::size_t s = 0; s < std::min(a.snapshots.size(), b.snapshots.size()); ++s) {
@@ -111,37 +102,46 @@ double differing(const Record& a, const Record& b, const PowersOfTwo& by, bool m
     compare(a.snapshots[s].velocity, b.snapshots[s].velocity, by.velocity(), -1);
     compare(a.snapshots[s].displacement, b.snapshots[s].displacement, by.displacement(), -1);
   }
-  return count;
+  return moved ? count : std::nan("");  // zeros are equal to anything's zeros
 }
 
 void measure_bits(const Case& c, const Leaf& leaf, const Scene& scene, const Stepping& stepping, const Record& record,
                   reports::Run& run) {
   const PowersOfTwo one{1, 1, 1, 1};
-  if (asks_for(c, leaf, "bits.repeat")) {
-    run.measures["bits.repeat"] = differing(record, solve(scene, leaf, stepping), one, false);
-  }
+  const auto compare = [&](const char* quantity, const Scene& other, const Leaf& on, const Stepping& with,
+                           const PowersOfTwo& by, bool mirror) {
+    const Record second = solve(other, on, with);
+    if (second.outcome == Outcome::cancelled) {
+      run.status = "cancelled";  // stopped, not different
+    } else {
+      run.measures[quantity] = differing(record, second, by, mirror);
+    }
+  };
+  if (asks_for(c, leaf, "bits.repeat")) compare("bits.repeat", scene, leaf, stepping, one, false);
   if (asks_for(c, leaf, "bits.power-of-two")) {
     const PowersOfTwo by;
     Stepping longer = stepping;
     longer.time_step *= by.time();
-    run.measures["bits.power-of-two"] = differing(record, solve(scaled(scene, by), leaf, longer), by, false);
+    compare("bits.power-of-two", scaled(scene, by), leaf, longer, by, false);
   }
   if (asks_for(c, leaf, "bits.mirror")) {
     Leaf behind = leaf;
     std::reverse(behind.particles.begin(), behind.particles.end());
     for (double& xi : behind.particles) xi = 1 - xi;
-    run.measures["bits.mirror"] = differing(record, solve(mirrored(scene), behind, stepping), one, true);
+    compare("bits.mirror", mirrored(scene), behind, stepping, one, true);
   }
 }
 
 /// Largest Courant number, to one part in a thousand, at which the scene stays bounded for the given number of steps.
 /// The bracket opens around the predicted limit until one end is stable and the other is not, and closes without
 /// looking at the prediction again. NaN where no such bracket is found.
-double bisect_limit(const Scene& scene, const Leaf& leaf, double predicted, long steps) {
+double bisect_limit(const Scene& scene, const Leaf& leaf, double predicted, long steps,
+                    const std::atomic<bool>* cancelled) {
   const auto stable = [&](double courant) {
     Stepping trial;
     trial.time_step = courant * cell_time(scene, leaf);
     trial.steps = steps;
+    trial.cancelled = cancelled;
     return solve(scene, leaf, trial).outcome == Outcome::completed;
   };
   double low = predicted / 2, high = predicted * 2;
@@ -155,11 +155,13 @@ double bisect_limit(const Scene& scene, const Leaf& leaf, double predicted, long
   return (low + high) / 2;
 }
 
-void measure_limit(const Case& c, const Leaf& leaf, const Scene& scene, reports::Run& run) {
+void measure_limit(const Case& c, const Leaf& leaf, const Scene& scene, const std::atomic<bool>* cancelled,
+                   reports::Run& run) {
   for (const GateSpec& gate : c.gates) {
     if (gate.quantity != "critical_courant" || !matches(gate.where, leaf)) continue;
     const double predicted = analytic::stability_limit(discretisation(c, leaf, leaf.courant));
-    run.measures["critical_courant"] = bisect_limit(scene, leaf, predicted, gate.steps);
+    run.measures["critical_courant"] = bisect_limit(scene, leaf, predicted, gate.steps, cancelled);
+    if (cancelled && *cancelled) run.status = "cancelled";
     run.measures["critical_courant.predicted"] = predicted;
     return;
   }
@@ -219,8 +221,7 @@ reports::Sample measure_sample(const Case& c, const Leaf& leaf, const Snapshot& 
     if (!exact || !exact->gives(q)) continue;
     const double scale = exact->scale(q);
     const Norms norms = error_norms(field, *exact, q, c.length);
-    reports::FieldError error{
-        name, field.time / unit, scale, norms.l1 / scale, norms.l2 / scale, norms.linf / scale, {}, {}, {}};
+    reports::FieldError error{name, field.time / unit, scale, norms.l1, norms.l2, norms.linf, {}, {}, {}};
     const auto predicted = [&](analytic::Norm norm) {
       auto value = analytic::predicted_error(*exact, theory, q, norm, field.time);
       if (value) *value /= scale;
@@ -305,6 +306,7 @@ reports::Run run_leaf(const Case& c, const Leaf& leaf, const Running& running) {
   const auto exact = make_exact(c);
   Stepping stepping = plan(c, scene, leaf);
   stepping.cancelled = running.cancelled;
+  if (running.keep_ledger && c.ledger) stepping.books = Books::lines;
   run.time_step = stepping.time_step;
   run.time_step_limit = critical_time_step(scene, leaf);
   run.courant = stepping.time_step / cell_time(scene, leaf);
@@ -332,15 +334,13 @@ reports::Run run_leaf(const Case& c, const Leaf& leaf, const Running& running) {
     const double time = static_cast<double>(record.snapshots[i].step) * stepping.time_step;
     run.samples.push_back(measure_sample(c, leaf, record.snapshots[i], c.times[i], time, exact.get(), run));
   }
-  measure_ledger(c, record, run);
-  if (running.keep_ledger) {
-    for (const LedgerLine& line : record.ledger) {
-      run.ledger.push_back(
-          {line.time, line.kinetic, line.strain, line.dissipated, line.work, line.lost, line.momentum, line.impulse});
-    }
+  measure_ledger(c, record.sums, run);
+  for (const LedgerLine& line : record.ledger) {
+    run.ledger.push_back(
+        {line.time, line.kinetic, line.strain, line.dissipated, line.work, line.lost, line.momentum, line.impulse});
   }
   measure_bits(c, leaf, scene, stepping, record, run);
-  measure_limit(c, leaf, scene, run);
+  measure_limit(c, leaf, scene, running.cancelled, run);
   run.invalid = why_invalid(c, record, run);
   return run;
 }
@@ -353,7 +353,8 @@ void refuse_unstable(const Case& c) {
     if (asked <= limit * (1 + round_off)) continue;
     throw InputError(fmt::format(
         "{}: axes.courant: {} for {} with {} cells is a time step of {:.6g}, above the limit {:.6g} (Courant {:.6g}); "
-        "allowed are values up to the limit, or [run] allow_unstable = true to see it blow up",
+        "allowed are values up to the limit, an [[axes]] of its own for each limit, or [run] allow_unstable = true to "
+        "see it blow up",
         c.path.string(), leaf.courant, leaf.method, leaf.cells, asked, limit, limit / cell_time(scene, leaf)));
   }
 }

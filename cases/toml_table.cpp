@@ -178,7 +178,11 @@ Place Table::place(const std::string& key) {
   return {place_.mistakes, node, node && node->at.line > 0 ? node->at : place_.at, prefix_ + key};
 }
 
-std::string Table::declaration() const { return declared(entries()); }
+std::string Table::declaration(const Names& without) const {
+  auto kept = entries();
+  std::erase_if(kept, [&](const Node::Entry& entry) { return contains(without, entry.key); });
+  return declared(kept);
+}
 
 bool Table::applies(const std::string& key, const std::string& choice, const std::string& chosen, const Names& owners) {
   const bool there = has(key);

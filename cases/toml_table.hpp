@@ -141,7 +141,7 @@ class Table {
   unsigned line() const { return place_.at.line; }
   std::size_t mistakes() const { return place_.mistakes->size(); }  ///< so far, in the whole file
   /// Its keys and values in one canonical line: "key=value key=value", nested ones in brackets.
-  std::string declaration() const;
+  std::string declaration(const Names& without = {}) const;
 
   template <class Value>
   std::optional<Value> maybe(const std::string& key, const Rule<Value>& rule) {

@@ -73,6 +73,16 @@ class Bar {
     for (std::size_t i = 0; i <= cells_; ++i) sum += mass_[i] * velocity_[i];
     return sum;
   }
+  double free_mass() const {
+    return scene_.left == Support::free && scene_.right == Support::free ? law_.density * scene_.length : 0;
+  }
+  /// Told by what this run has built up, not by what the scene asks for.
+  std::vector<std::string> features() const {
+    std::vector<std::string> active{Law::feature};
+    if (!body_.empty()) active.push_back("body-force");
+    std::sort(active.begin(), active.end());
+    return active;
+  }
   Work work(long steps) const {
     const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
     return {static_cast<long>(cells_) * steps, 0, static_cast<long>(cells_ + 1) * steps,
@@ -187,11 +197,7 @@ Record run(const Scene& scene, int cells, const Stepping& stepping) {
   return std::visit(
       [&](const auto& law) {
         Bar<std::decay_t<decltype(law)>> bar(scene, law, cells, stepping);
-        Record record = take_steps(bar, stepping);
-        record.features.push_back(law.feature);
-        if (scene.body_force) record.features.push_back("body-force");
-        std::sort(record.features.begin(), record.features.end());
-        return record;
+        return take_steps(bar, stepping);
       },
       scene.material);
 }

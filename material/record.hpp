@@ -36,6 +36,17 @@ struct LedgerLine {
   double impulse = 0;     ///< of loads and supports, since the start [kg m/s]
 };
 
+/// The ledger's last line and the largest magnitudes met in all of its lines.
+struct LedgerSums {
+  long lines = 0;
+  LedgerLine last;
+  double held = 0;      ///< kinetic + |strain| + dissipated [J]
+  double kinetic = 0;   ///< [J]
+  double lost = 0;      ///< |lost| [J]
+  double momentum = 0;  ///< |momentum − impulse| [kg m/s]
+  bool finite = true;   ///< every entry was
+};
+
 /// Deterministic cost: the same on every machine.
 struct Work {
   long element_steps = 0;
@@ -52,7 +63,8 @@ struct Record {
   long steps = 0;       ///< taken
   double time = 0;      ///< reached [s]
   std::vector<Snapshot> snapshots;
-  std::vector<LedgerLine> ledger;
+  LedgerSums sums;
+  std::vector<LedgerLine> ledger;  ///< with Books::lines
   Work work;
   std::vector<std::string> features;  ///< active in this run, sorted
 };

@@ -41,12 +41,16 @@ struct Scene {
   bool convected = false;  ///< particles move and cross cells; false: infinitesimal displacements, they stay put
 };
 
+/// How much of the energy and momentum ledger to keep. Off: neither computed nor stored. Sums: its largest entries.
+/// Lines: every step's line as well.
+enum class Books { off, sums, lines };
+
 /// The steps of one run. Times are multiples of time_step; the caller has checked it against critical_time_step.
 struct Stepping {
   double time_step = 0;            ///< Δt [s]
   long steps = 0;                  ///< number of steps
   std::vector<long> sample_after;  ///< step counts after which fields are sampled, ascending, each ≤ steps
-  bool ledger = true;              ///< keep the energy and momentum ledger (off: neither computed nor stored)
+  Books books = Books::sums;
   const std::atomic<bool>* cancelled = nullptr;  ///< asked between steps; true stops the run
 };
 

@@ -42,7 +42,9 @@ inline bool finite(const Snapshot& s) {
 template <class Body>
 Record take_steps(Body& body, const Stepping& stepping) {
   Record record;
-  Ledger ledger(stepping.time_step, body.first_ledger_time(), body.energy(), body.momentum());
+  Ledger ledger(stepping.books, stepping.time_step, body.first_ledger_time(), body.energy(), body.momentum(),
+                body.free_mass());
+  const bool keep = stepping.books != Books::off;
   auto next = stepping.sample_after.begin();
   for (long n = 0; n < stepping.steps; ++n) {
     if (stepping.cancelled && *stepping.cancelled) {
@@ -50,14 +52,14 @@ Record take_steps(Body& body, const Stepping& stepping) {
       record.message = "stopped on request";
       break;
     }
-    body.step(n, stepping.ledger ? &ledger : nullptr);
+    body.step(n, keep ? &ledger : nullptr);
     record.steps = n + 1;
     if (!body.trouble().empty()) {
       record.outcome = Outcome::left_grid;
       record.message = body.trouble();
       break;
     }
-    if (stepping.ledger && ledger.unstable()) {
+    if (keep && ledger.unstable()) {
       record.outcome = Outcome::unstable;
       record.message = "energy grew beyond anything the loads put in, at step " + std::to_string(n + 1);
       break;
@@ -73,7 +75,9 @@ Record take_steps(Body& body, const Stepping& stepping) {
     }
   }
   record.time = static_cast<double>(record.steps) * stepping.time_step;
-  record.ledger = ledger.take();
+  record.sums = ledger.sums();
+  record.ledger = ledger.take_lines();
+  record.features = body.features();
   record.work = body.work(record.steps);
   return record;
 }

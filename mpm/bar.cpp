@@ -142,6 +142,20 @@ class Bar {
     for (const double v : velocity_) sum += particle_mass_ * v;
     return sum;
   }
+  double free_mass() const {
+    return scene_.left == Support::free && scene_.right == Support::free ? law_.density * scene_.length : 0;
+  }
+  /// Told by what this run has built up, not by what the scene asks for.
+  std::vector<std::string> features() const {
+    std::vector<std::string> active{Law::feature};
+    if (!body_.empty()) active.push_back("body-force");
+    if (!advance_.empty()) active.push_back("convection");
+    if (std::any_of(layers_.begin(), layers_.end(), [](const auto& layer) { return !layer.empty(); })) {
+      active.push_back("boundary-layer");
+    }
+    std::sort(active.begin(), active.end());
+    return active;
+  }
   Work work(long steps) const {
     const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
     return {0, static_cast<long>(offset_.size()) * steps, static_cast<long>(node_.size()) * steps,
@@ -289,12 +303,11 @@ class Bar {
       auto& layer = layers_.emplace_back();
       if (load.transfer != Transfer::boundary_layer) continue;
       const double thickness = load.layer_thickness;
-      for (std::size_t p = 0; p < offset_.size(); ++p) {
-        const double begin = share_begin(p), end = share_begin(p + 1);
-        const double depth =
-            load.end == End::left ? begin : scene_.length - end;  // of its outer face under the surface
-        const double inside = std::min(end - begin, thickness - depth);
-        if (inside > 0) layer.push_back({p, inside / thickness});
+      // From the surface inwards, counted from the loaded end: a mirrored bar adds the same numbers in the same order.
+      for (std::size_t q = 0; q < offset_.size(); ++q) {
+        const double begin = share_begin(q), end = share_begin(q + 1);  // depths under the surface
+        const double inside = std::min(end - begin, thickness - begin);
+        if (inside > 0) layer.push_back({load.end == End::left ? q : offset_.size() - 1 - q, inside / thickness});
       }
     }
   }
@@ -496,16 +509,7 @@ Record run(const Scene& scene, int cells, const std::vector<double>& positions, 
   if (cells < 1 || positions.empty()) throw std::invalid_argument("mpm needs at least one cell and one particle");
   const auto go = [&](const auto& law, auto moving) {
     Bar<std::decay_t<decltype(law)>, decltype(moving)::value> bar(scene, law, cells, positions, scheme, stepping);
-    Record record = take_steps(bar, stepping);
-    record.features.push_back(law.feature);
-    if (scene.body_force) record.features.push_back("body-force");
-    if (scene.convected) record.features.push_back("convection");
-    if (std::any_of(scene.loads.begin(), scene.loads.end(),
-                    [](const Load& load) { return load.transfer == Transfer::boundary_layer; })) {
-      record.features.push_back("boundary-layer");
-    }
-    std::sort(record.features.begin(), record.features.end());
-    return record;
+    return take_steps(bar, stepping);
   };
   return std::visit(
       [&](const auto& law) { return scene.convected ? go(law, std::true_type{}) : go(law, std::false_type{}); },

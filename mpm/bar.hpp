@@ -13,7 +13,8 @@ enum class Scheme { usf, usl, musl };
 
 /// Largest stable time step of a bar with free ends [s]: closed forms for particles at natural coordinates ξ of every
 /// cell. Convected particles sweep all of ξ: then the least over the sweep for USF and MUSL; USL has no lower bound
-/// there, and the value for the positions at the start is given.
+/// there, and the value for the positions at the start is given. That is necessary and not enough: linear shape
+/// functions feed energy into waves whenever particles cross cells, at any time step (bar.convection.crossing).
 double critical_time_step(const Scene&, int cells, const std::vector<double>& positions, Scheme);
 
 /// Runs the scene with equal-mass particles at natural coordinates `positions` (each in [0, 1], ascending) of every

@@ -472,6 +472,32 @@ Fit fit_order(const std::vector<double>& cell_sizes, const std::vector<double>& 
   return {slope, spread, static_cast<int>(x.size())};
 }
 
+/// What a run's books and probes say, where it has any: all there is to see of a case without an exact solution.
+Grid books_grid(const Case& data, const Group& group) {
+  Grid grid;
+  grid.title = "Books (parts of the largest energy and momentum) and probes";
+  grid.heads = {"cells", "energy lost", "energy drift", "momentum drift"};
+  const Run* shown = nullptr;
+  for (const Run* run : group.runs)
+    if (has_numbers(*run)) shown = run;
+  if (!shown) return {};
+  for (const Sample& sample : shown->samples)
+    for (const ProbeValue& probe : sample.probes)
+      grid.heads.push_back(fmt::format("{} at {} {}", probe.id, general(sample.asked), data.time_unit));
+  for (const Run* run : group.runs) {
+    if (!has_numbers(*run)) continue;
+    Row row{{fmt::to_string(run->cells)}, {}};
+    for (const char* name : {"energy.lost", "energy.drift", "momentum.drift"}) {
+      const auto measure = run->measures.find(name);
+      row.cells.push_back(measure == run->measures.end() ? "-" : number(measure->second, "{:.3e}"));
+    }
+    for (const Sample& sample : run->samples)
+      for (const ProbeValue& probe : sample.probes) row.cells.push_back(number(probe.value, "{:.6g}"));
+    grid.rows.push_back(row);
+  }
+  return grid;
+}
+
 std::string text_table(const Case& data) {
   std::string out = fmt::format("{}: {}\n", data.id, data.title);
   out += fmt::format("units {}, times in {}; L1, L2, Linf are errors over the bar divided by the stated scale;\n",
@@ -479,6 +505,7 @@ std::string text_table(const Case& data) {
   out += "order from the row above (positive: converging); ratio = measured / predicted.\n\n";
   for (const Group& group : groups(data)) {
     out += "== " + group_title(group) + " ==\n" + text_of(cost_grid(data, group));
+    if (const Grid books = books_grid(data, group); !books.rows.empty()) out += text_of(books);
     for (const double asked : times(group))
       for (const std::string& field : fields(group, asked)) out += text_of(error_grid(data, group, asked, field));
   }
@@ -499,6 +526,7 @@ std::string latex_table(const Case& data) {
 
 std::string csv_table(const Case& data) {
   const std::string length = "[" + unit(data, "length") + "]", time = "[" + data.time_unit + "]";
+  const std::string seconds = data.units == "SI" ? "[s]" : "[" + data.units + " units]";
   std::string out = csv_line({"case",
                               "method",
                               "particles",
@@ -507,8 +535,8 @@ std::string csv_table(const Case& data) {
                               "unknowns",
                               "courant asked [-]",
                               "courant used [-]",
-                              "time step " + time,
-                              "time step limit " + time,
+                              "time step " + seconds,
+                              "time step limit " + seconds,
                               "steps",
                               "element steps",
                               "particle steps",

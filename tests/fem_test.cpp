@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "fem/bar.hpp"
+#include "material/ledger.hpp"
 #include "tests/scenes.hpp"
 
 using namespace diptych;
@@ -77,7 +78,7 @@ BOOST_AUTO_TEST_CASE(features_that_are_off_leave_the_bits_alone) {
   Scene never_yields = plain;
   never_yields.material = material::Hardening{1e4, 1, 2500, 1e300};
   Stepping without_ledger = steps_at(0.7, 50, 300);
-  without_ledger.ledger = false;
+  without_ledger.books = Books::off;
   const Record a = fem::run(plain, 50, steps_at(0.7, 50, 300));
   const Record b = fem::run(with_null_force, 50, steps_at(0.7, 50, 300));
   const Record c = fem::run(never_yields, 50, steps_at(0.7, 50, 300));
@@ -100,7 +101,7 @@ BOOST_AUTO_TEST_CASE(an_unstable_run_is_detected_and_stopped) {
 
 BOOST_AUTO_TEST_CASE(without_a_ledger_a_value_that_is_not_finite_is_detected_where_sampled) {
   Stepping stepping = steps_at(3, 20, 2000);
-  stepping.ledger = false;
+  stepping.books = Books::off;
   BOOST_TEST((fem::run(step_scene(), 20, stepping).outcome == Outcome::unstable));
 }
 
@@ -131,9 +132,44 @@ BOOST_AUTO_TEST_CASE(the_books_close_with_plasticity) {
   BOOST_REQUIRE(r.ledger.size() == 400U);
   const LedgerLine& last = r.ledger.back();
   BOOST_TEST(last.dissipated > 0);
+  BOOST_TEST(r.features == std::vector<std::string>{"plasticity"}, tt::per_element());
   BOOST_TEST(std::abs(last.work - (last.kinetic + last.strain + last.dissipated + last.lost)) < 1e-12 * last.work);
   BOOST_TEST(std::abs(last.lost) < 0.01 * last.work);  // the trapezium over a step that yields half-way
   BOOST_TEST(std::abs(last.momentum - last.impulse) < 1e-12);
+}
+
+BOOST_AUTO_TEST_CASE(ledger_times_and_work) {
+  const Record r = fem::run(step_scene(), 10, steps_at(0.5, 10, 8));
+  BOOST_TEST(r.ledger[0].time == 0.5 * 0.0005, tt::tolerance(1e-12));
+  BOOST_TEST(r.ledger[3].time == 3.5 * 0.0005, tt::tolerance(1e-12));
+  BOOST_TEST(r.work.element_steps == 80);
+  BOOST_TEST(r.work.node_steps == 88);
+  BOOST_TEST(r.work.particle_steps == 0);
+}
+
+// A velocity given at a support is none from the start, in the motion and in the books.
+BOOST_AUTO_TEST_CASE(a_support_holds_its_node_from_the_start) {
+  Scene scene = step_scene(0);
+  scene.loads.clear();
+  scene.initial_velocity = [](double) { return 1.0; };
+  const Record r = fem::run(scene, 10, steps_at(0.5, 10, 20));
+  for (const LedgerLine& line : r.ledger) BOOST_TEST(std::abs(line.momentum - line.impulse) < 1e-14);
+}
+
+BOOST_AUTO_TEST_CASE(two_loads_on_one_end_add_up) {
+  Scene twice = step_scene(1);
+  twice.loads.push_back(twice.loads[0]);
+  const Record a = fem::run(twice, 10, steps_at(0.5, 10, 20)), b = fem::run(step_scene(2), 10, steps_at(0.5, 10, 20));
+  BOOST_TEST(a.snapshots[0].stress.value == b.snapshots[0].stress.value, tt::per_element());
+}
+
+// A run without samples, as in a bisection, has only the ledger to tell it.
+BOOST_AUTO_TEST_CASE(a_ledger_that_holds_nan_is_unstable) {
+  for (const bool strain : {false, true}) {
+    Ledger ledger(Books::sums, 1, 0.5, 1, 0, 0);
+    ledger.close_line(strain ? 1 : std::nan(""), strain ? std::nan("") : 1, 0, 0);
+    BOOST_TEST(ledger.unstable());
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

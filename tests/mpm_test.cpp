@@ -2,7 +2,9 @@
 #include <boost/test/data/test_case.hpp>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+#include <numeric>
 
+#include "analytic/discrete.hpp"
 #include "mpm/bar.hpp"
 #include "tests/scenes.hpp"
 
@@ -195,6 +197,181 @@ BOOST_AUTO_TEST_CASE(usl_loses_energy_and_the_others_do_not) {
   BOOST_TEST(std::abs(lost(Scheme::usf)) < 1e-13);
   BOOST_TEST(std::abs(lost(Scheme::musl)) < 1e-13);
   BOOST_TEST(lost(Scheme::usl) > 1e-4);
+}
+
+// The two derivations of the limits, here and in analytic/, agree for any positions.
+BOOST_AUTO_TEST_CASE(critical_time_steps_are_those_of_theory_for_any_positions) {
+  using analytic::Discretisation;
+  for (const std::vector<double>& xi : {std::vector{0.5},
+                                        {0.3},
+                                        {0.05},
+                                        {0.25, 0.75},
+                                        {0.1, 0.2},
+                                        {0.0, 1.0},
+                                        {0.05, 0.95},
+                                        {0.1, 0.5, 0.6},
+                                        {0.02, 0.1, 0.98},
+                                        {0.125, 0.375, 0.625, 0.875}}) {
+    for (const auto& [scheme, theirs] : {std::pair(Scheme::usf, analytic::Scheme::mpm_usf),
+                                         {Scheme::usl, analytic::Scheme::mpm_usl},
+                                         {Scheme::musl, analytic::Scheme::mpm_musl}}) {
+      const double courant = mpm::critical_time_step(step_scene(), 50, xi, scheme) * 100 * 50;
+      BOOST_TEST(courant == analytic::stability_limit(Discretisation{theirs, 0.02, 1, xi}), tt::tolerance(1e-12));
+    }
+  }
+}
+
+// A bar almost without stiffness, pulled apart by its own velocity v = Vx: x = X(1 + Vt), strain ln(1 + Vt), and the
+// wall takes the impulse ∫σ dt. A bar whose particles stay behind would strain by Vt; one whose particles kept their
+// length would press on the wall with σ/(1 + Vt).
+BOOST_DATA_TEST_CASE(a_bar_that_is_pulled_apart_moves_stretches_and_thins, bdata::make({0, 1, 2}), which) {
+  Scene scene;
+  scene.length = 1;
+  scene.material = material::Elastic{1e-6, 1};
+  scene.left = Support::fixed;
+  scene.convected = true;
+  scene.initial_velocity = [](double x) { return x; };
+  Stepping stepping;
+  stepping.books = Books::lines;
+  stepping.time_step = 0.002;
+  stepping.steps = 250;
+  stepping.sample_after = {250};
+  const Record r =
+      mpm::run(scene, 20, {0.125, 0.375, 0.625, 0.875}, schemes[static_cast<std::size_t>(which)], stepping);
+  BOOST_TEST_CONTEXT(r.message) { BOOST_REQUIRE((r.outcome == Outcome::completed)); }
+  const auto& stress = r.snapshots[0].stress;
+  const double mean =
+      std::accumulate(stress.value.begin(), stress.value.end(), 0.0) / static_cast<double>(stress.value.size());
+  BOOST_TEST(mean == 1e-6 * std::log1p(stress.time), tt::tolerance(0.02));
+  const LedgerLine &first = r.ledger.front(), &last = r.ledger.back();
+  const auto impulse = [](double t) { return (1 + t) * std::log1p(t) - t; };
+  BOOST_TEST(first.momentum - last.momentum == 1e-6 * (impulse(last.time) - impulse(first.time)), tt::tolerance(0.05));
+  BOOST_TEST(std::abs(last.momentum - last.impulse) < 1e-14);
+}
+
+// A body force is a field in space: the bar meets it where it is and not where it started.
+BOOST_AUTO_TEST_CASE(body_force_acts_where_the_particle_is) {
+  Scene scene;
+  scene.length = 1;
+  scene.material = material::Elastic{1e-6, 1};
+  scene.convected = true;
+  scene.initial_velocity = [](double) { return 1.0; };
+  scene.body_force = [](double x, double) { return x > 1.25 ? 1e-3 : 0.0; };
+  Stepping stepping;
+  stepping.books = Books::lines;
+  stepping.time_step = 0.005;
+  stepping.steps = 100;
+  const Record r = mpm::run(scene, 20, {0.25, 0.75}, Scheme::musl, stepping);
+  // x > 1.25 holds a part t − 0.25 of the bar from t = 0.25 on
+  BOOST_TEST(r.ledger.back().momentum - 1 == 1e-3 * 0.25 * 0.25 / 2, tt::tolerance(0.1));
+  BOOST_TEST(r.ledger[40].momentum == 1.0, tt::tolerance(1e-12));
+}
+
+// Tractions stay with the ends of a bar that flies: a step that begins after it crossed some cells sends in its wave.
+BOOST_DATA_TEST_CASE(tractions_follow_the_ends, bdata::make({false, true}), in_layer) {
+  Scene scene;
+  scene.length = 1;
+  scene.material = material::Elastic{1e4, 1};
+  scene.convected = true;
+  scene.initial_velocity = [](double) { return 10.0; };
+  for (const End end : {End::left, End::right}) {
+    Load load;
+    load.end = end;
+    if (in_layer) load.transfer = Transfer::boundary_layer;
+    load.layer_thickness = 0.025;
+    load.mean_traction = [](double from, double) { return from >= 0.003 ? 1.0 : 0.0; };  // more than a cell on
+    scene.loads.push_back(load);
+  }
+  Stepping stepping = steps_at(0.25, 40, 71);  // to t = 0.0044: the waves are 0.14 into the bar
+  stepping.sample_after = {71};
+  const Record r = mpm::run(scene, 40, {0.25, 0.75}, Scheme::musl, stepping);
+  BOOST_TEST_CONTEXT(r.message) { BOOST_REQUIRE((r.outcome == Outcome::completed)); }
+  const auto& stress = r.snapshots[0].stress.value;
+  const auto mean = [&](std::size_t from, std::size_t to) {
+    return std::accumulate(stress.begin() + static_cast<long>(from), stress.begin() + static_cast<long>(to), 0.0) /
+           static_cast<double>(to - from);
+  };
+  BOOST_TEST(mean(0, 40) == 0.28, tt::tolerance(0.2));  // 0.14 of the bar is half of half of it
+  BOOST_TEST(mean(40, 80) == 0.28, tt::tolerance(0.2));
+  BOOST_TEST(std::abs(mean(36, 44)) < 0.05);
+}
+
+BOOST_AUTO_TEST_CASE(particles_that_pass_one_another_are_told) {
+  Scene scene;
+  scene.length = 1;
+  scene.material = material::Elastic{1e-6, 1};
+  scene.convected = true;
+  scene.initial_velocity = [](double x) { return x < 0.5 ? 1.0 : -1.0; };
+  Stepping stepping;
+  stepping.books = Books::lines;
+  stepping.time_step = 0.3;  // neighbours that close in by more than their distance in one step
+  stepping.steps = 1;
+  const Record r = mpm::run(scene, 10, {0.5}, Scheme::usf, stepping);
+  BOOST_TEST((r.outcome == Outcome::left_grid));
+  BOOST_TEST(r.message.find("passed one another") != std::string::npos, r.message);
+}
+
+// Eq. 16 at the left end is the mirror image of eq. 16 at the right one, also where a particle fills the layer in part.
+BOOST_AUTO_TEST_CASE(boundary_layer_is_the_same_at_either_end) {
+  for (const double cells : {0.3, 1.0, 1.75, 2.5}) {
+    Scene right = step_scene();
+    right.loads[0].transfer = Transfer::boundary_layer;
+    right.loads[0].layer_thickness = cells * 0.1;
+    Scene left = right;
+    left.loads[0].end = End::left;
+    std::swap(left.left, left.right);
+    const Record a = mpm::run(right, 10, {0.2, 0.9}, Scheme::musl, steps_at(0.3, 10, 20));
+    const Record b = mpm::run(left, 10, {1 - 0.9, 1 - 0.2}, Scheme::musl, steps_at(0.3, 10, 20));
+    const auto &x = a.snapshots[0].stress.value, &y = b.snapshots[0].stress.value;
+    for (std::size_t p = 0; p < 20; ++p) BOOST_TEST(std::abs(x[p] - y[19 - p]) < 1e-12);
+    BOOST_TEST(std::abs(b.ledger.back().momentum - b.ledger.back().impulse) < 1e-14);
+  }
+}
+
+// One step by hand: a layer of three quarters of a cell takes in all of the outer of two particles and half of the
+// inner.
+BOOST_AUTO_TEST_CASE(boundary_layer_that_ends_within_a_particle_by_hand) {
+  Scene scene = step_scene();
+  scene.loads[0].transfer = Transfer::boundary_layer;
+  scene.loads[0].layer_thickness = 0.075;
+  const double h = 0.1, dt = 0.3 * h / 100;
+  const Record r = mpm::run(scene, 10, {0.25, 0.75}, Scheme::musl, steps_at(0.3, 10, 1));
+  const double end = (2.0 / 3 * 0.75 + 1.0 / 3 * 0.25) / (h / 2), inner = (2.0 / 3 * 0.25 + 1.0 / 3 * 0.75) / h;
+  BOOST_TEST(r.snapshots[0].velocity.value[19] == dt / 2 * (0.75 * end + 0.25 * inner), tt::tolerance(1e-12));
+  BOOST_TEST(r.snapshots[0].velocity.value[18] == dt / 2 * (0.25 * end + 0.75 * inner), tt::tolerance(1e-12));
+}
+
+BOOST_DATA_TEST_CASE(the_books_close_with_plasticity, bdata::make({0, 2}), which) {
+  Scene scene = step_scene(100);
+  scene.material = material::Hardening{1e4, 1, 2500, 75};
+  const Record r =
+      mpm::run(scene, 100, {0.25, 0.75}, schemes[static_cast<std::size_t>(which)], steps_at(0.9, 100, 400));
+  BOOST_TEST(r.features == std::vector<std::string>{"plasticity"}, tt::per_element());
+  const LedgerLine& last = r.ledger.back();
+  BOOST_TEST(last.dissipated > 0.1 * last.work);
+  BOOST_TEST(std::abs(last.lost) < 0.01 * last.work);
+  BOOST_TEST(std::abs(last.momentum - last.impulse) < 1e-12);
+}
+
+// The books' lines stand at the times of their velocities, and the work counts what was done.
+BOOST_DATA_TEST_CASE(ledger_times_and_work, bdata::make({0, 1, 2}), which) {
+  const Record r =
+      mpm::run(step_scene(), 10, {0.25, 0.75}, schemes[static_cast<std::size_t>(which)], steps_at(0.5, 10, 8));
+  const double dt = 0.0005;
+  BOOST_TEST(r.ledger[0].time == (which == 0 ? 1.0 : 0.5) * dt, tt::tolerance(1e-12));
+  BOOST_TEST(r.ledger[3].time == r.ledger[0].time + 3 * dt, tt::tolerance(1e-12));
+  BOOST_TEST(r.work.particle_steps == 160);
+  BOOST_TEST(r.work.node_steps == 88);
+  BOOST_TEST(r.work.element_steps == 0);
+}
+
+// Three particles anywhere in a cell: each one's stress holds for its third of the cell.
+BOOST_AUTO_TEST_CASE(stress_is_given_over_each_particles_share) {
+  const Record r = mpm::run(step_scene(), 10, {0.1, 0.5, 0.6}, Scheme::musl, steps_at(0.3, 10, 2));
+  const auto& stress = r.snapshots[0].stress;
+  BOOST_REQUIRE(stress.edges.size() == 31U);
+  for (std::size_t i = 0; i < 31; ++i) BOOST_TEST(std::abs(stress.edges[i] - static_cast<double>(i) / 30) < 1e-14);
+  BOOST_TEST(stress.x[4] == 0.15, tt::tolerance(1e-14));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -61,6 +61,11 @@ mutant(modulus FILE material/material.hpp
         bar.mode.fixed-free/stress-constant bar.mode.fixed-free/stress-order
         bar.mode.fixed-free/velocity-constant bar.mode.fixed-free/velocity-order)
 
+mutant(flight-hides-what-grows-inside FILE material/ledger.hpp
+  FIND    "free_mass_ > 0 ? momentum * momentum / (2 * free_mass_) : 0"
+  REPLACE "0 * momentum"
+  KILLS bar.convection.crossing/detected)
+
 # --- both methods alike -------------------------------------------------------------------------------------------------
 
 mutant(fem-density FILE fem/bar.cpp
@@ -113,14 +118,16 @@ mutant(fem-damping FILE fem/bar.cpp
   REPLACE "velocity_[i] = 0.99999 * velocity_[i] + kick * force_[i] / mass_[i]"
   KILLS bar.step.fixed-free/fem-magic-step bar.step.fixed-free/fem-constant bar.step.fixed-free/energy
         bar.step.fixed-free/momentum bar.energy/shadow-energy bar.body-force/energy bar.body-force/momentum
-        bar.step.free-free/energy bar.impulse.free-free/energy)
+        bar.step.free-free/energy bar.impulse.free-free/energy
+        bar.initial-state/momentum)
 mutant(mpm-damping FILE mpm/bar.cpp
   FIND    "velocity_[p] += kick * ("
   REPLACE "velocity_[p] = 0.99999 * velocity_[p] + kick * ("
   KILLS bar.step.fixed-free/musl-constant bar.step.fixed-free/usf-constant bar.step.fixed-free/energy
         bar.step.fixed-free/momentum bar.energy/shadow-energy bar.traction.layer/momentum bar.traction.node/momentum
         bar.convection.rigid/momentum bar.convection.rigid/velocity bar.convection.rigid/usl-velocity
-        bar.convection.rigid/displacement)
+        bar.convection.rigid/displacement
+        bar.traction.layer-left/momentum bar.traction.layer-left/energy)
 
 # --- FEM ----------------------------------------------------------------------------------------------------------------
 
@@ -201,10 +208,14 @@ mutant(usf-without-its-half-step FILE mpm/bar.cpp
   FIND    "update_stress<false>(dt_ / 2, nullptr);"
   REPLACE "update_stress<false>(dt_, nullptr);"
   KILLS bar.mode.fixed-free/stress-order)
-mutant(mpm-mass-and-momentum-by-different-shape-functions FILE mpm/bar.cpp
-  FIND    "Pair{particle_mass_ * (0.5 - offset_[p]), particle_mass_ * (0.5 + offset_[p])}"
-  REPLACE "Pair{particle_mass_ * (0.5 - 0.999 * offset_[p]), particle_mass_ * (0.5 + 0.999 * offset_[p])}"
-  KILLS bar.convection.rigid/velocity bar.convection.rigid/stress bar.convection.rigid/displacement)
+mutant(mpm-strain-feels-the-flight FILE mpm/bar.cpp
+  FIND    "(right.velocity - left.velocity) / h_"
+  REPLACE "(right.velocity - 0.999999999 * left.velocity) / h_"
+  KILLS bar.convection.rigid/stress)
+mutant(mpm-particles-run-ahead FILE mpm/bar.cpp
+  FIND    "const double increment = drift * ("
+  REPLACE "const double increment = (1 + 1e-9) * drift * ("
+  KILLS bar.convection.rigid/displacement)
 mutant(mpm-layer-gives-the-end-too-much FILE mpm/bar.cpp
   FIND    "(0.5 + offset_[point.particle]) * force}"
   REPLACE "(0.51 + offset_[point.particle]) * force}"
@@ -216,7 +227,8 @@ mutant(mpm-traction-beside-the-end FILE mpm/bar.cpp
 mutant(mpm-one-sided-rounding FILE mpm/bar.cpp
   FIND    "displacement_[p] += increment;"
   REPLACE "displacement_[p] += increment > 0 ? increment * (1 + 1e-15) : increment;"
-  KILLS bar.step.fixed-free/mirror bar.step.free-free/mirror bar.impulse.free-free/mirror)
+  KILLS bar.step.fixed-free/mirror bar.step.free-free/mirror bar.impulse.free-free/mirror
+        bar.traction.layer/mirror bar.traction.layer-left/mirror)
 mutant(mpm-absolute-tolerance FILE mpm/bar.cpp
   FIND    "(right.velocity - left.velocity) / h_"
   REPLACE "(right.velocity - left.velocity + 1e-15) / h_"
@@ -242,6 +254,23 @@ mutant(oracle-takes-a-wall-for-a-free-end FILE analytic/bar_wave.cpp
   REPLACE "return end.fixed ? -1 : -1;"
   VERDICT INVALID
   KILLS bar.step.fixed-free/fem-magic-step bar.step.fixed-free/fem-constant)
+
+mutant(fem-initial-stress-at-the-node FILE fem/bar.cpp
+  FIND    "scene.initial_stress(midpoint(e))"
+  REPLACE "scene.initial_stress(node(e))"
+  KILLS bar.initial-state/displacement-order bar.initial-state/velocity-order bar.initial-state/displacement)
+mutant(fem-initial-velocity-beside-the-node FILE fem/bar.cpp
+  FIND    "scene.initial_velocity(node(i))"
+  REPLACE "scene.initial_velocity(node(i) + 0.1 * h_)"
+  KILLS bar.mode.fixed-free/displacement-between bar.initial-state/velocity-order)
+mutant(fem-impulse-forgets-the-right-support FILE fem/bar.cpp
+  FIND    "sum -= force_[cells_]"
+  REPLACE "sum -= 0.999999 * force_[cells_]"
+  KILLS bar.initial-state/momentum)
+mutant(mpm-layer-on-the-wrong-end FILE mpm/bar.cpp
+  FIND    "load.end == End::left ? q : offset_.size() - 1 - q"
+  REPLACE "offset_.size() - 1 - q"
+  KILLS bar.traction.layer-left/end-stress)
 
 add_test(NAME teeth.coverage
   COMMAND ${PROJECT_SOURCE_DIR}/tests/coverage.sh $<TARGET_FILE:diptych> ${killed_list})

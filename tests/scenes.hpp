@@ -26,6 +26,7 @@ inline Stepping steps_at(double courant, int cells, long steps) {
   stepping.time_step = courant * 0.01 / cells;
   stepping.steps = steps;
   stepping.sample_after = {steps};
+  stepping.books = Books::lines;
   return stepping;
 }
 
