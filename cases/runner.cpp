@@ -178,16 +178,22 @@ reports::Curve polyline(const Field& field, const Leaf& leaf) {
   return curve;
 }
 
-/// The exact field on a line fine enough to draw, broken at its fronts.
+/// The exact field on a line fine enough to draw, broken at its fronts. On a front nothing is read: two that pass each
+/// other just now would draw a spike of no width.
 reports::Curve exact_line(const analytic::ExactSolution& exact, Quantity q, double length, double time) {
+  const double side = 1e-6 * length;
+  const auto fronts = exact.fronts(time);
   std::vector<double> xs;
   for (int i = 0; i <= 400; ++i) xs.push_back(length * i / 400);
-  const auto fronts = exact.fronts(time);
-  for (std::size_t i = 0; i < fronts.size(); ++i) {
-    const auto near = [&](std::size_t j) { return std::abs(fronts[i].position - fronts[j].position) < 1e-6 * length; };
-    if ((i > 0 && near(i - 1)) || (i + 1 < fronts.size() && near(i + 1))) continue;  // they pass each other just now
-    for (const double side : {-1e-9, 1e-9}) xs.push_back(std::clamp(fronts[i].position + side * length, 0.0, length));
+  for (const analytic::Front& front : fronts) {
+    for (const double x : {front.position - side, front.position + side}) {
+      if (x >= 0 && x <= length) xs.push_back(x);
+    }
   }
+  std::erase_if(xs, [&](double x) {
+    return std::any_of(fronts.begin(), fronts.end(),
+                       [&](const analytic::Front& front) { return std::abs(x - front.position) < 0.9 * side; });
+  });
   std::sort(xs.begin(), xs.end());
   reports::Curve curve;
   for (const double x : xs) {
