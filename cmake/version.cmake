@@ -1,4 +1,5 @@
 # Writes what made this binary into a header; leaves the file alone where nothing changed, so nothing is rebuilt.
+cmake_minimum_required(VERSION 3.25)
 execute_process(COMMAND git -C ${SOURCE} rev-parse --short=12 HEAD
   OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE no_git)
 if(no_git)

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # cli.sh PROGRAM: what a user meets at the command line.
 set -uo pipefail
-program=$1
+program=$(readlink -f "$1")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
@@ -74,6 +74,12 @@ TOML
 expect 0 'fem' "$program" run own.toml --out results
 expect 0 '"type":"run"' cat results/results.jsonl
 expect 0 'DIPTYCH-VERDICT PASS' "$program" gate own.toml
+expect 0 'own/close: PASS' "$program" explain own.toml/close
+expect 14 "did you mean 'close'" "$program" gate own.toml/clos
+expect 0 'ledgers/own' "$program" run own.toml --ledger --out results
+expect 0 '^time,kinetic,strain,dissipated,work,lost,momentum,impulse' sh -c 'cat results/ledgers/own/fem*.csv'
+expect 14 'cannot write to' "$program" run own.toml --out own.toml/results
+expect 12 'cannot write|standard output' sh -c "'$program' list >/dev/full"
 sed 's/max = 0.2/max = 1e-9/' own.toml > strict.toml
 expect 10 'DIPTYCH-VERDICT FAIL gates=1/1 passed=0' "$program" gate strict.toml
 sed 's/rho = 7800.0/rho = -7800.0/' own.toml > negative.toml
