@@ -13,8 +13,13 @@ namespace diptych::cases {
 
 inline const Names methods{"fem", "mpm-usf", "mpm-usl", "mpm-musl"};
 inline const Names fields{"stress", "velocity", "displacement"};
-inline const Names invariants{"energy.drift",      "energy.lost", "momentum.drift",
-                              "bits.power-of-two", "bits.mirror", "bits.repeat"};
+inline const Names invariants{"energy.drift",
+                              "energy.lost",
+                              "momentum.drift",
+                              "bits.power-of-two",
+                              "bits.mirror",
+                              "bits.repeat",
+                              "cross.fem-on-half-the-cells"};
 
 /// What a `constant` gate may be measured against.
 Names theories();
