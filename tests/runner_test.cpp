@@ -83,6 +83,16 @@ BOOST_AUTO_TEST_CASE(two_sample_times_on_one_step_make_a_run_invalid) {
   BOOST_TEST(!run_leaf(c, leaves(c).at(0)).invalid.empty());
 }
 
+// The exact solution's own test looks long enough, however short the runs.
+BOOST_AUTO_TEST_CASE(a_short_run_can_be_judged) {
+  Case c = by_id("bar.step.free-free");
+  c.times = {0.02};
+  c.gates.clear();
+  c.figures.clear();
+  const auto results = run_cases({c}, {2});
+  for (const auto& run : results[0].runs) BOOST_TEST(run.invalid == "");
+}
+
 BOOST_AUTO_TEST_CASE(runs_not_begun_when_asked_to_stop_are_left_out) {
   const std::atomic<bool> cancelled{true};
   const auto results = run_cases({by_id("bar.step.free-free")}, {2, &cancelled});
