@@ -20,6 +20,14 @@ struct Measured {
   std::string unit;
 };
 
+/// One bar of a row.
+struct BarSpec {
+  double length = 0;
+  Measured gap{0, "m"};  ///< to the bar before it, ≥ 0; none for the first
+  std::string velocity;  ///< uniform at the start, an expression of parameters; empty: none
+  material::Material material;
+};
+
 struct LoadSpec {
   End end = End::right;
   std::string history;     ///< "step", "ramp", "impulse" or "expression"
@@ -33,12 +41,16 @@ struct LoadSpec {
 };
 
 struct ExactSpec {
-  /// "bar-wave" (steps, ramps and impulses on the ends, from rest), "standing-mode", "expressions" or "none".
+  /// "bar-wave" (steps, ramps and impulses on the ends, from rest), "standing-mode", "impact" (bars that fly, strike and
+  /// yield), "plastic-impact" (two equal bars without hardening), "expressions" or "none".
   std::string solution = "none";
   int mode = 1;                                ///< standing-mode
   double amplitude = 0;                        ///< standing-mode [length]
   std::string stress, velocity, displacement;  ///< expressions of x and t; an empty one is not compared
 };
+
+/// Names of [parameters] with the values that a run gives them.
+using Parameters = std::map<std::string, double>;
 
 /// Values of the swept axes; every combination is a run (FEM ignores `particles`: one run for all of them).
 struct Axes {
@@ -46,6 +58,7 @@ struct Axes {
   std::vector<int> cells;                             ///< ≥ 1
   std::vector<double> courant;                        ///< > 0
   std::vector<std::vector<double>> particles{{0.5}};  ///< natural coordinates ξ in [0, 1], ascending, at least one
+  std::map<std::string, std::vector<double>> parameters;  ///< swept ones of [parameters]
 };
 
 /// Restricts a gate to some values of the axes; an empty list is no restriction.
@@ -54,6 +67,7 @@ struct Where {
   std::vector<int> cells;
   std::vector<double> courant;
   std::vector<std::vector<double>> particles;
+  std::map<std::string, std::vector<double>> parameters;
 };
 
 struct Probe {
@@ -82,16 +96,33 @@ struct GateSpec {
   std::string declaration;                     ///< its own keys and values in one canonical line, for gates.lock
 };
 
+/// A part of a motion figure, magnified.
+struct Zoom {
+  std::array<double, 2> x, t;  ///< [case units], [time unit of the case]
+};
+
 struct FigureSpec {
-  std::string id;  ///< "fig1"
+  std::string id;                 ///< "fig1"
+  std::string title;              ///< empty: the case's
+  std::string kind = "profiles";  ///< of a field at some times, or "motion": positions over time
   std::string field = "stress";
   std::vector<double> times;          ///< subset of the sample times; empty: all
   std::vector<std::string> captions;  ///< one per time: what to see
   int cells = 0;                      ///< which runs to draw
   double courant = 0;
-  std::vector<std::string> methods;  ///< drawn ones
+  std::map<std::string, double> courants;  ///< of methods that are drawn at another Courant number
+  std::vector<std::string> methods;        ///< drawn ones
+  std::string choices;                     ///< parameters that the paper leaves open, in words
   std::vector<double> particles{0.5};
+  Parameters parameters;                       ///< of the runs to draw, where they are swept
   std::optional<std::array<double, 2>> range;  ///< of the field's axis
+  std::optional<Zoom> zoom;                    ///< motion
+  double magnify = 1;                          ///< motion: displacements are drawn so many times as large
+
+  double courant_of(const std::string& method) const {
+    const auto own = courants.find(method);
+    return own == courants.end() ? courant : own->second;
+  }
 };
 
 struct Case {
@@ -99,17 +130,19 @@ struct Case {
   std::string id, title, claim, why;
   std::vector<std::string> paper_figures;  ///< "1", "3a"
   std::string units;                       ///< "SI" or "paper"
-  double length = 0;
-  material::Material material;
+  std::vector<BarSpec> bars = std::vector<BarSpec>(1);  ///< left to right
   Support left = Support::free, right = Support::free;
   bool convected = false;
+  Contact contact = Contact::node_to_node;
+  std::optional<material::Viscosity> viscosity;
   std::vector<LoadSpec> loads;
   std::string body_force, initial_velocity, initial_stress;  ///< expressions, empty: none
-  std::map<std::string, double> parameters;                  ///< names for expressions, besides L, E, rho, c and pi
+  Parameters parameters;                                     ///< names for expressions, besides L, E, rho, c and pi
   std::vector<std::string> features;                         ///< declared, sorted
   ExactSpec exact;
   std::vector<Axes> axes;     ///< blocks; the runs are the union of their products
   std::string time_unit;      ///< "s" or "L/c"
+  bool from_contact = false;  ///< times count from when the first two bars would meet in free flight
   std::vector<double> times;  ///< ascending, > 0
   std::vector<Probe> probes;
   std::string scene;  ///< all keys but those of gates, figures and prose in one canonical line, for gates.lock
@@ -117,6 +150,9 @@ struct Case {
   std::vector<FigureSpec> figures;
   bool allow_unstable = false;
   bool ledger = true;
+
+  /// The bar whose length and material stand for L, E, rho and c.
+  const BarSpec& first() const { return bars.front(); }
 };
 
 }  // namespace diptych::cases

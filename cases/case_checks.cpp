@@ -22,22 +22,30 @@ const std::vector<Theory> all_theories{
     {"airy-step", "bar-wave", {"stress.L2", "displacement.L2", "displacement.Linf"}, {"fem", "mpm-usf", "mpm-musl"}},
     {"end-equilibrium", "", {}, methods},  // the loads' own: probes of stress, whatever the solution
     {"mode", "standing-mode", quantities_of("order", {}), methods},
+    {"viscous-front", "bar-wave", {"stress.L1", "stress.L2", "velocity.L1", "velocity.L2"}, methods},
+    {"impact", "impact", outcomes, methods},
+    {"plastic-impact", "plastic-impact", outcomes, methods},
 };
 
 bool bar_is_known(const Case& c) {
-  const double speed = material::wave_speed(c.material);
-  return c.length > 0 && std::isfinite(speed) && speed > 0;
+  const double speed = material::wave_speed(c.first().material);
+  return c.first().length > 0 && std::isfinite(speed) && speed > 0;
 }
 
 /// The features that the scene switches on, each with the key that does it.
 std::map<std::string, std::string> features_in_use(const Case& c) {
   std::map<std::string, std::string> used;
-  if (std::holds_alternative<material::Elastic>(c.material))
+  const bool elastic = std::all_of(c.bars.begin(), c.bars.end(), [](const BarSpec& bar) {
+    return std::holds_alternative<material::Elastic>(bar.material);
+  });
+  if (elastic)
     used["elastic"] = "material.model = \"elastic\"";
   else
     used["plasticity"] = "material.model = \"hardening\"";
+  if (c.bars.size() > 1) used["contact"] = "a second [[bar]]";
+  if (c.viscosity) used["viscosity"] = "[viscosity]";
   if (!c.body_force.empty()) used["body-force"] = "[body_force]";
-  if (c.convected) used["convection"] = "bar.displacements = \"finite\"";
+  if (c.convected) used["convection"] = "model.displacements = \"finite\"";
   for (const LoadSpec& load : c.loads)
     if (load.transfer == Transfer::boundary_layer) used["boundary-layer"] = "[[load]] transfer = \"boundary-layer\"";
   return used;
@@ -45,7 +53,7 @@ std::map<std::string, std::string> features_in_use(const Case& c) {
 
 /// A norm of an error needs something exact to compare with.
 void check_comparable(const Place& quantity, const GateSpec& gate, const Case& c) {
-  if (gate.quantity.empty() || gate.quantity.starts_with("probe.")) return;
+  if (gate.quantity.empty() || gate.quantity.starts_with("probe.") || contains(outcomes, gate.quantity)) return;
   const std::string field = gate.quantity.substr(0, gate.quantity.find('.'));
   const ExactSpec& exact = c.exact;
   if (exact.solution == "none")
@@ -100,7 +108,8 @@ void check_order(Table& t, const GateSpec& gate, const Case& c) {
   std::map<std::string, int> meshes;  // of each series that differs in nothing else
   for (const Leaf& run : runs_of(gate, c))
     ++meshes[run.method + ", courant = " + words(run.courant) +
-             (run.method == "fem" ? "" : ", particles = " + words(run.particles))];
+             (run.method == "fem" ? "" : ", particles = " + words(run.particles)) +
+             (run.parameters.empty() ? "" : ", " + parameters_label(run.parameters))];
   for (const auto& [series, count] : meshes) {
     if (count >= gate.levels_min) continue;
     t.place("levels_min")
@@ -124,8 +133,12 @@ Names quantities_of(const std::string& kind, const Case& c) {
   Names names;
   for (const std::string& field : fields)
     for (const char* norm : {".L1", ".L2", ".Linf"}) names.push_back(field + norm);
-  if (kind == "exact" || kind == "constant")
+  if (kind == "exact" || kind == "constant") {
     for (const Probe& probe : c.probes) names.push_back("probe." + probe.id);
+    names.insert(names.end(), outcomes.begin(), outcomes.end());
+  }
+  if (kind == "order")
+    for (const std::string& outcome : outcomes) names.push_back(outcome + ".error");
   return names;
 }
 
@@ -142,12 +155,13 @@ Axes all_axes(const Case& c) {
     add(all.cells, block.cells);
     add(all.courant, block.courant);
     add(all.particles, block.particles);
+    for (const auto& [name, values] : block.parameters) add(all.parameters[name], values);
   }
   return all;
 }
 
 double bar_in(const std::string& unit, const Case& c) {
-  if (unit != "cells") return unit == "m" ? c.length : 1;
+  if (unit != "cells") return unit == "m" ? c.first().length : 1;
   const std::vector<int> cells = all_axes(c).cells;
   return cells.empty() ? 0 : cells.front();
 }
@@ -162,6 +176,67 @@ bool ascending(const std::vector<double>& values) {
   return std::adjacent_find(values.begin(), values.end(), std::greater_equal<>()) == values.end();
 }
 
+/// The values of parameters that the runs have: those of [parameters] where none is swept.
+std::vector<Case> variants(const Case& c) {
+  std::vector<Case> all;
+  std::vector<Parameters> seen;
+  for (const Leaf& leaf : leaves(c)) {
+    if (std::find(seen.begin(), seen.end(), leaf.parameters) != seen.end()) continue;
+    seen.push_back(leaf.parameters);
+    all.push_back(with_parameters(c, leaf));
+  }
+  if (all.empty()) all.push_back(c);
+  return all;
+}
+
+void check_bars(const Place& place, const Case& c) {
+  if (c.bars.size() == 1 || !bar_is_known(c)) return;
+  for (const int cells : all_axes(c).cells) {
+    const double h = c.first().length / cells;
+    for (std::size_t b = 1; b < c.bars.size(); ++b) {
+      const double size = c.bars[b].length / h;
+      if (std::abs(size - std::round(size)) <= 1e-9 * size && std::round(size) >= 1) continue;
+      place.say(fmt::format("found bar {} of length {}, which is {:g} cells where the first bar has {}; allowed: whole "
+                            "numbers of cells, all of one size",
+                            b + 1, c.bars[b].length, size, cells));
+      return;
+    }
+  }
+}
+
+void check_in_some_bar(const Place& place, const Measured& at, const Case& c) {
+  for (const int cells : all_axes(c).cells) {
+    const double x = length_of(c, at, cells);
+    const std::vector<double> begins = begins_of(c, cells);
+    bool inside = false;
+    for (std::size_t b = 0; b < c.bars.size(); ++b)
+      inside = inside || (x >= begins[b] && x <= begins[b] + c.bars[b].length);
+    if (inside) continue;
+    place.refuse(words(at.value) + ' ' + at.unit + ", which is in no bar", "places in a bar, from the first one's left end");
+    return;
+  }
+}
+
+void check_contact(const Place& place, const Case& c) {
+  if (!bar_is_known(c) || c.axes.empty()) return;
+  for (const Case& variant : variants(c)) {
+    if (std::isfinite(contact_time(variant, fem_on(all_axes(c).cells.front())))) continue;
+    place.say("found \"contact\" where no two bars close in; allowed: with bars whose velocities make them meet");
+    return;
+  }
+}
+
+void check_times(const Place& place, const Case& c) {
+  if (!bar_is_known(c) || c.axes.empty() || c.times.empty()) return;
+  for (const Case& variant : variants(c)) {
+    for (const Leaf& leaf : leaves(c)) {
+      if (instant(variant, leaf, c.times.front()) > 0) continue;
+      place.refuse(words(c.times.front()) + ", which is before the start in some run", "times after the start");
+      return;
+    }
+  }
+}
+
 void check_expression(const Place& place, const std::string& text, const Names& variables, const Case& c) {
   if (text.empty()) return;
   const bool known = bar_is_known(c);
@@ -173,9 +248,12 @@ void check_expression(const Place& place, const std::string& text, const Names& 
     if (!known) return;
     const bool of_x = contains(variables, "x"), of_t = contains(variables, "t");
     std::vector<double> xs{0}, ts{0};
-    if (of_x) xs = {0, c.length / 2, c.length};
+    if (of_x) xs = {0, c.first().length / 2, c.first().length};
     if (of_t)
       for (const double time : c.times) ts.push_back(time * time_unit(c, c.time_unit));
+    if (!of_x && !of_t) {  // a constant one, which the reader of expressions has seen to be finite
+      return;
+    }
     for (const double x : xs) {
       for (const double t : ts) {
         const double value = of_x && of_t ? expression(x, t) : expression(of_x ? x : t);
@@ -209,7 +287,7 @@ void check_steps(const Place& place, const Axes& axes, const Case& c) {
   constexpr double most = 1e12;
   if (c.times.empty() || !bar_is_known(c)) return;
   const double end =
-      c.times.back() * time_unit(c, c.time_unit) * material::wave_speed(c.material) / c.length;  // in L/c
+      instant(c, fem_on(1), c.times.back()) * material::wave_speed(c.first().material) / c.first().length;  // in L/c
   const double courant = *std::min_element(axes.courant.begin(), axes.courant.end());
   const int cells = *std::max_element(axes.cells.begin(), axes.cells.end());
   const double steps = end * cells / courant;
@@ -221,22 +299,53 @@ void check_steps(const Place& place, const Axes& axes, const Case& c) {
 void check_methods(const Place& place, const Axes& axes, const Case& c) {
   if (!contains(axes.method, "fem")) return;
   for (const auto& [feature, key] : features_in_use(c))
-    if (feature == "boundary-layer" || feature == "convection")
+    if (feature == "boundary-layer" || (c.convected && feature == "body-force"))
       place.refuse("\"fem\" together with " + key, "MPM methods only: mpm-usf, mpm-usl, mpm-musl");
+}
+
+void check_impact(const Place& place, const Case& c) {
+  const auto refuse = [&](bool present, const std::string& what, const std::string& allowed) {
+    if (present) place.say("found " + words(c.exact.solution) + " together with " + what + "; allowed: " + allowed);
+  };
+  const auto perfect = [](const BarSpec& bar) {
+    const auto* law = std::get_if<material::Hardening>(&bar.material);
+    return law && law->tangent_modulus == 0;
+  };
+  const bool any_perfect = std::any_of(c.bars.begin(), c.bars.end(), perfect);
+  refuse(!c.body_force.empty(), "[body_force]", "no body force");
+  refuse(!c.initial_velocity.empty() || !c.initial_stress.empty(), "[initial]", "bars with one velocity each");
+  if (c.exact.solution == "impact") {
+    refuse(any_perfect, "E_t = 0",
+           "\"plastic-impact\": without hardening no front carries the plastic strain, which is a delta on the face");
+    for (const LoadSpec& load : c.loads)
+      refuse(load.history == "ramp" || load.history == "expression", "a load of history = " + words(load.history),
+             "steps and impulses");
+    return;
+  }
+  const auto* a = std::get_if<material::Hardening>(&c.bars.front().material);
+  const auto* b = std::get_if<material::Hardening>(&c.bars.back().material);
+  const bool equal = c.bars.size() == 2 && a && b && c.bars[0].length == c.bars[1].length &&
+                     a->youngs_modulus == b->youngs_modulus && a->density == b->density &&
+                     a->yield_stress == b->yield_stress && perfect(c.bars[0]) && perfect(c.bars[1]);
+  refuse(!equal, "other bars", "two equal bars with E_t = 0");
+  refuse(!c.loads.empty() || c.left == Support::fixed || c.right == Support::fixed, "loads or supports", "free ends");
 }
 
 /// What the named solutions leave out, they cannot be compared with.
 void check_solution(const Place& place, const Case& c) {
   const std::string& solution = c.exact.solution;
-  const bool wave = solution == "bar-wave";
+  const bool wave = solution == "bar-wave", plastic = solution == "plastic-impact", impact = plastic || solution == "impact";
+  if (impact) check_impact(place, c);
   if (!wave && solution != "standing-mode") return;
   const auto refuse = [&](bool present, const std::string& what, const std::string& why) {
     if (present)
       place.say("found " + words(solution) + " together with " + what + "; " + why +
                 "; allowed: leave that out, or give solution = \"expressions\"");
   };
-  refuse(std::holds_alternative<material::Hardening>(c.material), "material.model = \"hardening\"",
+  refuse(std::holds_alternative<material::Hardening>(c.first().material), "material.model = \"hardening\"",
          "its waves are elastic");
+  refuse(c.bars.size() > 1 || !c.first().velocity.empty(), "several bars or a bar with a velocity",
+         "it knows one bar, at rest before it is loaded (\"impact\" knows the others)");
   refuse(!c.body_force.empty(), "[body_force]", "it knows no body force");
   refuse(!wave && !c.loads.empty(), "[[load]]", "its ends carry no traction");
   refuse(!c.initial_velocity.empty() || !c.initial_stress.empty(), "[initial]",
@@ -280,6 +389,10 @@ void check_where(const Place& place, const GateSpec& gate, const Case& c) {
   met("method", gate.where.method, [](const Leaf& run) { return run.method; });
   met("cells", gate.where.cells, [](const Leaf& run) { return run.cells; });
   met("courant", gate.where.courant, [](const Leaf& run) { return run.courant; });
+  for (const auto& [name, values] : gate.where.parameters)
+    met(name.c_str(), values, [&, key = name](const Leaf& run) {
+      return run.parameters.contains(key) ? run.parameters.at(key) : std::nan("");
+    });
   const bool fem_alone = std::all_of(runs.begin(), runs.end(), [](const Leaf& run) { return run.particles.empty(); });
   if (fem_alone) return;  // it has no particles to tell apart
   met("particles", gate.where.particles, [](const Leaf& run) { return run.particles; });

@@ -13,12 +13,16 @@ namespace diptych::cases {
 
 inline const Names methods{"fem", "mpm-usf", "mpm-usl", "mpm-musl"};
 inline const Names fields{"stress", "velocity", "displacement"};
+/// What a run with several bars or plasticity tells beside its fields, each with what the exact solution says of it.
+inline const Names outcomes{"contact.begin", "contact.early", "contact.end", "contact.duration", "contact.restitution", "plastic.work"};
 inline const Names invariants{"energy.drift",
                               "energy.lost",
+                              "energy.closure",
                               "momentum.drift",
                               "bits.power-of-two",
                               "bits.mirror",
                               "bits.repeat",
+                              "bits.alone",
                               "cross.fem-on-half-the-cells"};
 
 /// What a `constant` gate may be measured against.
@@ -27,13 +31,19 @@ Names theories();
 Names quantities_of(const std::string& kind, const Case&);
 /// The values of all blocks of axes together; none where the axes hold a mistake.
 Axes all_axes(const Case&);
-/// The length of the bar in "m", "L" or "cells" of the coarsest grid; 0 where it is not known.
+/// The length of the first bar in "m", "L" or "cells" of the coarsest grid; 0 where it is not known.
 double bar_in(const std::string& unit, const Case&);
 /// The runs that a gate speaks of.
 std::vector<Leaf> runs_of(const GateSpec&, const Case&);
 /// Each of them greater than the one before.
 bool ascending(const std::vector<double>&);
 
+/// Bars that fit one grid in every run, and velocities beside [initial].
+void check_bars(const Place& bar, const Case&);
+void check_in_some_bar(const Place&, const Measured& at, const Case&);
+/// Times from contact need bars that close in, in every run, and must lie after the start.
+void check_contact(const Place& from, const Case&);
+void check_times(const Place& at, const Case&);
 /// Compiles a formula of `variables` ("x", "t") and tries it at x in {0, L/2, L} and t in {0, the sample times}.
 void check_expression(const Place&, const std::string& text, const Names& variables, const Case&);
 void check_features(const Place&, const Case&);

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <numbers>
 #include <sstream>
 #include <system_error>
@@ -132,33 +133,21 @@ std::vector<double> read_times(Table& t, const Case& c) {
 
 // ---- one function per table -----------------------------------------------------------------------------------------
 
-void read_bar(Table& t, Case& c) {
-  c.length = t.need("length", positive());
-  c.convected = t.get("displacements", one_of({"infinitesimal", "finite"})) == "finite";
-}
-
-void read_material(Table& t, Case& c) {
+material::Material read_material(Table& t) {
   const std::string model = t.need("model", one_of({"elastic", "hardening"}));
   const double E = t.need("E", positive()), rho = t.need("rho", positive());
-  c.material = material::Elastic{E, rho};
+  material::Material material = material::Elastic{E, rho};
   const bool hardens = t.applies("E_t", "model", model, {"hardening"});
   if (t.applies("yield_stress", "model", model, {"hardening"}) && hardens) {
     const double E_t = t.need("E_t", not_negative()), yield_stress = t.need("yield_stress", positive());
     if (E > 0 && E_t >= E) t.place("E_t").refuse(words(E_t), "0 <= E_t < E = " + words(E));
-    c.material = material::Hardening{E, rho, E_t, yield_stress};
+    material = material::Hardening{E, rho, E_t, yield_stress};
   }
-  const double speed = material::wave_speed(c.material);
+  const double speed = material::wave_speed(material);
   if (E > 0 && rho > 0 && (!std::isfinite(speed) || speed <= 0))
     t.place("E").say("found E = " + words(E) + " and rho = " + words(rho) + ", whose wave speed sqrt(E/rho) is " +
                      words(speed) + "; allowed: a finite wave speed > 0");
-}
-
-void read_supports(Table& t, Case& c) {
-  const auto support = [&](const char* end) {
-    return t.need(end, one_of({"fixed", "free"})) == "fixed" ? Support::fixed : Support::free;
-  };
-  c.left = support("left");
-  c.right = support("right");
+  return material;
 }
 
 void read_parameters(Table& t, Case& c) {
@@ -179,6 +168,71 @@ void read_parameters(Table& t, Case& c) {
   }
 }
 
+std::function<void(Table&)> read_parameters_of(Case& c) {
+  return [&c](Table& t) { read_parameters(t, c); };
+}
+
+/// A number, or a formula of parameters.
+Rule<std::string> constant_formula() {
+  return {[](const Place& place) -> std::optional<std::string> {
+    if (place.node->is_number()) {
+      const auto value = any_number().read(place);
+      return value ? std::optional(words(*value)) : std::nullopt;
+    }
+    return text("a number, or an expression of parameters in quotes").read(place);
+  }};
+}
+
+BarSpec read_bar(Table& t, Case& c, const std::optional<material::Material>& common) {
+  BarSpec bar;
+  bar.length = t.need("length", positive());
+  if (t.has("material"))
+    t.table("material", [&](Table& m) { bar.material = read_material(m); });
+  else if (common)
+    bar.material = *common;
+  if (c.bars.empty() && t.has("gap"))
+    t.place("gap").say("found a gap before the first bar; allowed: gaps before the others");
+  if (!c.bars.empty()) bar.gap = t.get("gap", with_unit({"m", "L", "cells"}, not_negative()), bar.gap);
+  if (!t.has("material") && !common)
+    t.place("material").say("missing; allowed: a material of its own, or one [material] for all bars without");
+  c.bars.push_back(bar);
+  if (t.has("velocity")) {
+    c.bars.back().velocity = t.get("velocity", constant_formula());
+    check_expression(t.place("velocity"), c.bars.back().velocity, {}, c);
+  }
+  return bar;
+}
+
+void read_bars(Table& file, Case& c) {
+  std::optional<material::Material> common;
+  file.maybe_table("material", [&](Table& t) { common = read_material(t); });
+  file.maybe_table("parameters", read_parameters_of(c));
+  c.bars.clear();
+  file.one_or_each("bar", [&](Table& t) { read_bar(t, c, common); });
+  if (c.bars.empty()) c.bars.resize(1);  // its own mistake; what follows still asks for one
+}
+
+void read_viscosity(Table& t, Case& c) {
+  material::Viscosity v;
+  const std::string form = t.need("form", one_of({"york", "linear-quadratic"}));
+  const bool york = form != "linear-quadratic";
+  v.form = york ? material::Viscosity::Form::york : material::Viscosity::Form::linear_quadratic;
+  v.c1 = t.need("c1", not_negative());
+  v.c2 = t.need("c2", not_negative());
+  if (t.applies("bulk", "form", form, {"york"})) v.bulk = t.get("bulk", positive(), v.bulk);
+  if (t.applies("length", "form", form, {"york"})) v.length = t.get("length", positive(), v.length);
+  v.always = t.get("acts", one_of({"compression", "always"})) == "always";
+  c.viscosity = v;
+}
+
+void read_supports(Table& t, Case& c) {
+  const auto support = [&](const char* end) {
+    return t.need(end, one_of({"fixed", "free"})) == "fixed" ? Support::fixed : Support::free;
+  };
+  c.left = support("left");
+  c.right = support("right");
+}
+
 Probe read_probe(Table& t, const Case& c) {
   Probe probe;
   probe.id = t.need("id", id());
@@ -186,8 +240,9 @@ Probe read_probe(Table& t, const Case& c) {
   probe.at = t.need("at", with_unit({"m", "L", "cells"}, not_negative()));
   const std::string unit = ' ' + probe.at.unit;
   const double length = bar_in(probe.at.unit, c);
-  if (length > 0 && probe.at.value > length)
+  if (c.bars.size() == 1 && length > 0 && probe.at.value > length)
     t.place("at").refuse(words(probe.at.value) + unit + ", outside the bar", "0 to " + words(length) + unit);
+  if (c.bars.size() > 1) check_in_some_bar(t.place("at"), probe.at, c);
   return probe;
 }
 
@@ -203,7 +258,10 @@ void read_sample(Table& t, Case& c) {
   else
     t.table("times", [&](Table& s) {
       c.time_unit = s.need("unit", one_of(time_units));
-      c.times = s.need("at", list_of(positive()));
+      c.from_contact = s.get("from", one_of({"start", "contact"})) == "contact";
+      if (c.from_contact) check_contact(s.place("from"), c);
+      c.times = s.need("at", list_of(c.from_contact ? any_number() : positive()));
+      if (c.from_contact) check_times(s.place("at"), c);
       if (ascending(c.times)) return;
       s.place("at").refuse(words(c.times), "times in ascending order, each once");
       c.times.clear();
@@ -211,7 +269,23 @@ void read_sample(Table& t, Case& c) {
   c.probes = read_each<Probe>(t, "probes", c, read_probe);
 }
 
-Axes read_axes(Table& t) {
+/// Values of parameters, { v0 = [0.1, 1.0] } or { v0 = 1.0 }.
+std::map<std::string, std::vector<double>> read_values(Table& t, const Case& c) {
+  std::map<std::string, std::vector<double>> values;
+  Names known;
+  for (const auto& [name, value] : c.parameters) known.push_back(name);
+  for (const auto& entry : t.entries()) {
+    if (c.parameters.contains(entry.key))
+      values[entry.key] = t.get(entry.key, one_or_set_of(any_number()));
+    else
+      t.place(entry.key).refuse("no such parameter",
+                                known.empty() ? "names of [parameters], of which there are none" : joined(known),
+                                suggestion(entry.key, known));
+  }
+  return values;
+}
+
+Axes read_axes(Table& t, const Case& c) {
   Axes axes;
   axes.method = t.need("method", set_of(one_of(methods)));
   axes.cells = t.need("cells", set_of(number_of_cells()));
@@ -219,6 +293,7 @@ Axes read_axes(Table& t) {
       t.need("courant",
              set_of(positive("the time step is courant * cell size / wave speed, and a time step of 0 gets nowhere")));
   axes.particles = t.get("particles", set_of(particles()), axes.particles);
+  t.maybe_table("parameters", [&](Table& p) { axes.parameters = read_values(p, c); });
   return axes;
 }
 
@@ -263,7 +338,7 @@ void read_initial(Table& t, Case& c) {
 
 void read_exact(Table& t, Case& c) {
   ExactSpec& exact = c.exact;
-  exact.solution = t.need("solution", one_of({"bar-wave", "standing-mode", "expressions"},
+  exact.solution = t.need("solution", one_of({"bar-wave", "standing-mode", "impact", "plastic-impact", "expressions"},
                                              "without an exact solution leave out the whole table [exact]"));
   const auto of = [&](const char* key, const char* owner) {
     return t.applies(key, "solution", exact.solution, {owner});
@@ -297,11 +372,19 @@ Where read_where(Table& t, const Case& c) {
     else if (const auto set = t.maybe("particles", particles()))
       where.particles = {*set};
   }
+  t.maybe_table("parameters", [&](Table& p) { where.parameters = read_values(p, c); });
   const Axes axes = all_axes(c);
   among(t.place("method"), where.method, axes.method, "axes.method");
   among(t.place("cells"), where.cells, axes.cells, "axes.cells");
   among(t.place("courant"), where.courant, axes.courant, "axes.courant");
   among(t.place("particles"), where.particles, axes.particles, "axes.particles");
+  for (const auto& [name, values] : where.parameters) {
+    const auto swept = axes.parameters.find(name);
+    if (swept == axes.parameters.end())
+      t.place("parameters").refuse(words(name) + ", which is not swept", "parameters of the axes");
+    else
+      among(t.place("parameters"), values, swept->second, "axes.parameters." + name);
+  }
   return where;
 }
 
@@ -345,9 +428,16 @@ FigureSpec read_figure(Table& t, const Case& c) {
   FigureSpec figure;
   figure.id = t.need("id", id());
   if (!figure.id.empty()) t.rename("figure " + words(figure.id) + ": ");
-  figure.field = t.get("field", one_of(fields), figure.field);
-  figure.times = read_times(t, c);
-  figure.captions = t.get("captions", list_of(text()));
+  figure.title = t.get("title", text());
+  figure.kind = t.get("kind", one_of({"profiles", "motion"}), figure.kind);
+  const auto of = [&](const char* key, const char* kind) { return t.applies(key, "kind", figure.kind, {kind}); };
+  if (of("field", "profiles")) figure.field = t.get("field", one_of(fields), figure.field);
+  if (of("times", "profiles")) figure.times = read_times(t, c);
+  if (of("captions", "profiles")) figure.captions = t.get("captions", list_of(text()));
+  if (of("magnify", "motion")) figure.magnify = t.get("magnify", positive(), figure.magnify);
+  if (of("zoom", "motion")) {
+    t.maybe_table("zoom", [&](Table& z) { figure.zoom = Zoom{z.need("x", interval()), z.need("t", interval())}; });
+  }
   const std::size_t instants = figure.times.empty() ? c.times.size() : figure.times.size();
   if (!figure.captions.empty() && instants > 0 && figure.captions.size() != instants)
     t.place("captions")
@@ -361,22 +451,50 @@ FigureSpec read_figure(Table& t, const Case& c) {
     return axis.empty() ? std::decay_t<decltype(axis[0])>{} : axis[0];  // empty: the axes' own mistake
   };
   figure.cells = one_of_axis("cells", number_of_cells(), axes.cells);
-  figure.courant = one_of_axis("courant", positive(), axes.courant);
+  if (const Node* courant = t.place("courant").node; courant && courant->as<Node::Entries>()) {
+    // { fem = 1.0, mpm-musl = 0.1 }: one for each method
+    t.table("courant", [&](Table& each) {
+      for (const auto& entry : each.entries()) {
+        const double number = each.get(entry.key, positive());
+        if (contains(methods, entry.key))
+          figure.courants[entry.key] = figure.courant = number;
+        else
+          each.place(entry.key).refuse("no such method", joined(methods), suggestion(entry.key, methods));
+      }
+    });
+  } else {
+    figure.courant = one_of_axis("courant", positive(), axes.courant);
+  }
+  figure.choices = t.get("choices", text());
   figure.methods = t.get("methods", set_of(one_of(methods)), axes.method);
   const bool one_set = t.has("particles") || axes.particles.size() == 1;
   if (one_set) figure.particles = one_of_axis("particles", particles(), axes.particles);
-  figure.range = t.maybe("range", interval());
+  if (of("range", "profiles")) figure.range = t.maybe("range", interval());
+  t.maybe_table("parameters", [&](Table& p) {
+    for (const auto& [name, values] : read_values(p, c)) figure.parameters[name] = values.empty() ? 0 : values.front();
+  });
+  for (const auto& [name, values] : axes.parameters) {
+    if (figure.parameters.contains(name)) continue;
+    if (values.size() > 1)
+      t.place("parameters").say("missing " + words(name) + ", which is swept; allowed: one value of it, " + joined(values));
+    else
+      figure.parameters[name] = values.front();
+  }
 
   bool good = figure.cells > 0 && figure.courant > 0 && !figure.particles.empty();
   if (figure.cells > 0) good &= among(t.place("cells"), std::vector{figure.cells}, axes.cells, "axes.cells");
-  if (figure.courant > 0) good &= among(t.place("courant"), std::vector{figure.courant}, axes.courant, "axes.courant");
+  for (const std::string& method : figure.methods) {
+    if (figure.courant_of(method) > 0)
+      good &= among(t.place("courant"), std::vector{figure.courant_of(method)}, axes.courant, "axes.courant");
+  }
   good &= among(t.place("methods"), figure.methods, axes.method, "axes.method");
   if (!figure.particles.empty() && figure.methods != Names{"fem"})
     good &= among(t.place("particles"), std::vector<std::vector<double>>{figure.particles}, axes.particles,
                   "axes.particles");
   const std::vector<Leaf> runs = leaves(c);
   for (const std::string& method : figure.methods) {
-    const Leaf leaf{method, figure.cells, figure.courant, method == "fem" ? std::vector<double>{} : figure.particles};
+    const Leaf leaf{method, figure.cells, figure.courant_of(method), method == "fem" ? std::vector<double>{} : figure.particles,
+                    figure.parameters};
     if (good && !runs.empty() && std::find(runs.begin(), runs.end(), leaf) == runs.end())
       t.place("methods").refuse(fmt::format("{} with cells = {}, courant = {} and particles = {}", words(method),
                                             leaf.cells, words(leaf.courant), words(leaf.particles)),
@@ -397,9 +515,7 @@ Case read_file(Table& file) {
   c.why = file.need("why", text());
   c.units = file.need("units", one_of({"SI", "paper"}));
   file.maybe_table("paper", [&](Table& t) { c.paper_figures = t.need("figures", set_of(text())); });
-  file.table("bar", with(read_bar));
-  file.table("material", with(read_material));
-  file.maybe_table("parameters", with(read_parameters));
+  read_bars(file, c);
 
   struct Block {
     Axes axes;
@@ -407,9 +523,10 @@ Case read_file(Table& file) {
   };
   std::vector<Block> blocks;
   std::size_t before = file.mistakes();
-  file.one_or_each("axes", [&](Table& t) { blocks.push_back({read_axes(t), t.place("method"), t.place("courant")}); });
+  file.one_or_each("axes", [&](Table& t) { blocks.push_back({read_axes(t, c), t.place("method"), t.place("courant")}); });
   if (file.mistakes() == before)  // nothing is compared with axes that are not known
     for (const Block& block : blocks) c.axes.push_back(block.axes);
+  check_bars(file.place("bar"), c);
   file.table("sample", with(read_sample));
   file.table("supports", with(read_supports));
 
@@ -428,9 +545,15 @@ Case read_file(Table& file) {
     if (c.body_force.empty()) c.body_force = "0";  // refused already; the scene still asks for one
   });
   file.maybe_table("initial", with(read_initial));
+  file.maybe_table("viscosity", with(read_viscosity));
+  file.maybe_table("contact", [&](Table& t) {
+    c.contact = t.need("fem", one_of({"node-to-node", "bonded"})) == "bonded" ? Contact::bonded : Contact::node_to_node;
+    if (c.bars.size() == 1) t.say("found a contact of one bar; allowed: with two bars or more");
+  });
   file.table("model", [&](Table& t) {
-    c.features =
-        t.need("features", set_of(one_of({"elastic", "plasticity", "body-force", "boundary-layer", "convection"})));
+    c.convected = t.get("displacements", one_of({"infinitesimal", "finite"})) == "finite";
+    c.features = t.need("features", set_of(one_of({"elastic", "plasticity", "body-force", "boundary-layer", "contact",
+                                                   "convection", "viscosity"})));
     std::sort(c.features.begin(), c.features.end());
     check_features(t.place("features"), c);
   });
@@ -459,10 +582,10 @@ Case read_file(Table& file) {
 
 std::map<std::string, double> expression_constants(const Case& c) {
   std::map<std::string, double> constants = c.parameters;
-  constants["L"] = c.length;
-  constants["E"] = material::youngs_modulus(c.material);
-  constants["rho"] = material::density(c.material);
-  constants["c"] = material::wave_speed(c.material);
+  constants["L"] = c.first().length;
+  constants["E"] = material::youngs_modulus(c.first().material);
+  constants["rho"] = material::density(c.first().material);
+  constants["c"] = material::wave_speed(c.first().material);
   constants["pi"] = std::numbers::pi;
   return constants;
 }

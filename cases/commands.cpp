@@ -265,8 +265,8 @@ int show_command(const Options& options) {
     fmt::print("{}: {}\n  file       {}\n  claim      {}\n  why        {}\n", c.id, c.title, c.path.string(), c.claim,
                c.why);
     fmt::print("  bar        length {:g}, E {:g}, rho {:g}, wave speed {:g} ({} units), {}–{}, {} displacements\n",
-               c.length, material::youngs_modulus(c.material), material::density(c.material),
-               material::wave_speed(c.material), c.units, end_text(c.left), end_text(c.right),
+               c.first().length, material::youngs_modulus(c.first().material), material::density(c.first().material),
+               material::wave_speed(c.first().material), c.units, end_text(c.left), end_text(c.right),
                c.convected ? "finite" : "infinitesimal");
     for (const LoadSpec& load : c.loads) {
       fmt::print("  load       {}{} on the {} end, {}, through the {}\n", load.history, timing(load),

@@ -145,6 +145,11 @@ Expression& Expression::operator=(Expression other) noexcept {
 
 Expression::~Expression() = default;
 
+double Expression::operator()() const {
+  if (!impl_->variables.empty()) throw std::logic_error("expression called with no argument: " + impl_->formula);
+  return impl_->parser.Eval();
+}
+
 double Expression::operator()(double first) const {
   if (impl_->variables.size() != 1) throw std::logic_error("expression called with 1 argument: " + impl_->formula);
   impl_->values[0] = first;

@@ -24,6 +24,7 @@ class Expression {
   Expression& operator=(Expression) noexcept;
   ~Expression();
 
+  double operator()() const;                             ///< for none
   double operator()(double first) const;                 ///< for one variable
   double operator()(double first, double second) const;  ///< for two
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cases/build.hpp"
 #include "cases/leaf.hpp"
 
 namespace diptych::cases {
@@ -24,7 +25,8 @@ std::string upper(std::string s) {
 
 const reports::Run* find(const std::vector<reports::Run>& runs, const FigureSpec& spec, const std::string& method) {
   for (const auto& run : runs) {
-    if (run.method == method && run.cells == spec.cells && run.courant_asked == spec.courant &&
+    if (run.method == method && run.cells == spec.cells && run.courant_asked == spec.courant_of(method) &&
+        run.parameters == parameters_label(spec.parameters) &&
         run.status == "completed" && (method == "fem" || run.particles == particles_label(spec.particles))) {
       return &run;
     }
@@ -40,58 +42,197 @@ void widen(reports::Figure& figure, const reports::Curve& curve) {
   }
 }
 
-}  // namespace
+std::string length_unit(const Case& c) { return c.units == "paper" ? "paper's units" : "m"; }
 
-std::vector<reports::Figure> make_figures(const Case& c, const std::vector<reports::Run>& runs) {
-  std::vector<reports::Figure> figures;
-  for (const FigureSpec& spec : c.figures) {
-    reports::Figure figure;
-    figure.id = spec.id;
-    figure.title = spec.id.rfind("fig", 0) == 0 ? fmt::format("Fig. {}. {}", spec.id.substr(3), c.title) : c.title;
-    figure.y_min = figure.y_max = 0;
-    figure.x_label = fmt::format("x [{}]", c.units == "paper" ? "paper's units" : "m");
-    figure.y_label = fmt::format("{} {} [{}]", spec.field, symbol_of(spec.field), unit_of(c, spec.field));
-    figure.x_max = c.length;
-    const bool mpm = spec.methods != std::vector<std::string>{"fem"};
-    const std::string particles =
-        mpm ? fmt::format("particles at ξ = {} of each cell; ", particles_label(spec.particles)) : "";
-    figure.notes.push_back(
-        fmt::format("{} cells; Courant number {:g}; {}{} displacements; E = {:g}, ρ = {:g}, L = {:g}", spec.cells,
-                    spec.courant, particles, c.convected ? "finite" : "infinitesimal",
-                    material::youngs_modulus(c.material), material::density(c.material), c.length));
-    if (!c.paper_figures.empty()) {
-      figure.notes.push_back("The times are our choice, to show what the paper describes.");
+std::string name_of(const std::string& method) { return method == "fem" ? "FEM" : "MPM, " + upper(method.substr(4)); }
+std::string kind_of(const std::string& method) { return method == "fem" ? "fem" : "mpm"; }
+
+std::string words_of(const BarSpec& bar) {
+  std::string text = fmt::format("E = {:g}, ρ = {:g}, L = {:g}", material::youngs_modulus(bar.material),
+                                 material::density(bar.material), bar.length);
+  if (const auto* law = std::get_if<material::Hardening>(&bar.material))
+    text += fmt::format(", E_t = {:g}, yield stress {:g}", law->tangent_modulus, law->yield_stress);
+  return text;
+}
+
+bool same(const BarSpec& a, const BarSpec& b) {
+  return words_of(a) == words_of(b);
+}
+
+/// Parameters under the title: of the runs, of the bars, and which of them the paper leaves open.
+std::vector<std::string> notes_of(const Case& c, const FigureSpec& spec) {
+  const bool mpm = spec.methods != std::vector<std::string>{"fem"};
+  const std::string particles =
+      mpm ? fmt::format("particles at ξ = {} of each cell; ", particles_label(spec.particles)) : "";
+  std::vector<std::string> notes;
+  std::string courant = "Courant number";
+  if (spec.courants.empty()) courant += fmt::format(" {:g}", spec.courant);
+  for (const auto& [method, number] : spec.courants)
+    courant += fmt::format("{} {:g} ({})", courant.ends_with("r") ? "" : ",", number, name_of(method));
+  const bool several = c.bars.size() > 1;
+  const std::string bars = !several ? words_of(c.first())
+                           : std::all_of(c.bars.begin(), c.bars.end(), [&](const BarSpec& b) { return same(b, c.first()); })
+                               ? "each bar " + words_of(c.first())
+                               : "";
+  notes.push_back(fmt::format("{} cells{}; {}; {}{} displacements{}{}", spec.cells, several ? " in the first bar" : "",
+                              courant, particles, c.convected ? "finite" : "infinitesimal", bars.empty() ? "" : "; ", bars));
+  if (bars.empty()) {
+    for (std::size_t b = 0; b < c.bars.size(); ++b) notes.push_back(fmt::format("bar {}: {}", b + 1, words_of(c.bars[b])));
+  }
+  std::string velocities;
+  for (std::size_t b = 0; b < c.bars.size(); ++b) {
+    if (!c.bars[b].velocity.empty()) velocities += fmt::format("{}{:g}", velocities.empty() ? "" : ", ", velocity_of(c, b));
+  }
+  if (!velocities.empty())
+    notes.push_back(fmt::format("Velocities at the start {}.{}", velocities, !mpm || !c.from_contact || spec.kind == "motion" ? "" :
+                    " Each method's times count from its own contact: MPM's bars touch as soon as they share a node."));
+  if (c.viscosity) {
+    const auto& v = *c.viscosity;
+    notes.push_back(v.form == material::Viscosity::Form::york
+                        ? fmt::format("Artificial viscosity of eq. 21: c1 = {:g}, c2 = {:g}, λ = {:g}, g = {:g} cells", v.c1,
+                                      v.c2, v.bulk, v.length)
+                        : fmt::format("Artificial viscosity ρ(c1 c h|D| + c2 h²D²): c1 = {:g}, c2 = {:g}", v.c1, v.c2));
+  }
+  if (!c.paper_figures.empty() && !spec.choices.empty()) notes.push_back("Reconstructed parameters: " + spec.choices);
+  if (!c.paper_figures.empty() && spec.choices.empty())
+    notes.push_back("The times are our choice, to show what the paper describes.");
+  return notes;
+}
+
+/// Part of paths that lies between two times, with one point more on either side.
+reports::Curve between(const reports::Curve& paths, double from, double to) {
+  reports::Curve part;
+  const auto inside = [&](std::size_t i) { return i < paths.y.size() && paths.y[i] >= from && paths.y[i] <= to; };
+  for (std::size_t i = 0; i < paths.x.size(); ++i) {
+    if (!std::isnan(paths.y[i]) && !inside(i) && !inside(i + 1) && !(i > 0 && inside(i - 1))) continue;
+    if (std::isnan(paths.y[i]) && (part.x.empty() || std::isnan(part.x.back()))) continue;
+    part.x.push_back(paths.x[i]);
+    part.y.push_back(paths.y[i]);
+  }
+  return part;
+}
+
+void add_motion(const Case& c, const FigureSpec& spec, const std::vector<reports::Run>& runs, reports::Figure& figure) {
+  const double unit = time_unit(c, c.time_unit), origin = instant(c, fem_on(spec.cells), 0);
+  figure.motion = true;
+  figure.x_label = fmt::format("position x [{}]", length_unit(c));
+  figure.y_label = fmt::format("time t [{}]{}", c.time_unit, c.from_contact ? " from contact" : "");
+  const auto in_units = [&](reports::Curve curve, const std::vector<double>& origins) {
+    for (double& t : curve.y) t = (t - origin) / unit;
+    for (std::size_t i = 0; i < curve.x.size(); ++i) curve.x[i] = origins[i] + spec.magnify * (curve.x[i] - origins[i]);
+    return curve;
+  };
+  if (spec.magnify != 1) figure.notes.push_back(fmt::format("Displacements are drawn {:g} times as large.", spec.magnify));
+  reports::Figure::Panel whole;
+  for (const std::string& method : spec.methods) {
+    const reports::Run* run = find(runs, spec, method);
+    if (!run) {
+      figure.notes.push_back(method + " is missing: its run did not complete");
+      continue;
     }
-    const auto& times = spec.times.empty() ? c.times : spec.times;
-    for (std::size_t i = 0; i < times.size(); ++i) {
-      reports::Figure::Panel panel;
-      panel.label = fmt::format("t = {:g} {}", times[i], c.time_unit);
-      if (i < spec.captions.size()) panel.label += ": " + spec.captions[i];
-      for (const std::string& method : spec.methods) {
-        const reports::Run* run = find(runs, spec, method);
-        if (!run) {
-          figure.notes.push_back(method + " is missing: its run did not complete");
-          continue;
+    if (whole.series.empty() && !run->exact_paths.x.empty())
+      whole.series.push_back({"exact", "exact", in_units(run->exact_paths, run->path_origins)});
+    whole.series.push_back({name_of(method), kind_of(method), in_units(run->paths, run->path_origins)});
+  }
+  bool any = false;
+  for (const auto& series : whole.series) {
+    for (std::size_t i = 0; i < series.curve.x.size(); ++i) {
+      const double x = series.curve.x[i], t = series.curve.y[i];
+      if (!std::isfinite(x) || !std::isfinite(t)) continue;
+      figure.x_min = any ? std::min(figure.x_min, x) : x;
+      figure.x_max = any ? std::max(figure.x_max, x) : x;
+      figure.y_min = any ? std::min(figure.y_min, t) : t;
+      figure.y_max = any ? std::max(figure.y_max, t) : t;
+      any = true;
+    }
+  }
+  const double room = 0.02 * (figure.x_max - figure.x_min);
+  figure.x_min -= room;
+  figure.x_max += room;
+  if (spec.zoom) {
+    whole.label = "(a) the whole run";
+    reports::Figure::Panel near;
+    near.label = "(b) contact, magnified";
+    near.x_range = spec.zoom->x;
+    near.y_range = spec.zoom->t;
+    for (const auto& series : whole.series)
+      near.series.push_back({series.label, series.kind, between(series.curve, spec.zoom->t[0], spec.zoom->t[1])});
+    figure.panels = {std::move(whole), std::move(near)};
+  } else {
+    figure.panels = {std::move(whole)};
+  }
+}
+
+void add_profiles(const Case& c, const FigureSpec& spec, const std::vector<reports::Run>& runs,
+                  reports::Figure& figure) {
+  const bool moves = c.convected || c.bars.size() > 1;
+  figure.y_min = figure.y_max = 0;
+  figure.x_label = fmt::format("{}x [{}]", moves ? "position " : "", length_unit(c));
+  figure.y_label = fmt::format("{} {} [{}]", spec.field, symbol_of(spec.field), unit_of(c, spec.field));
+  figure.x_max = begins_of(c, spec.cells).back() + c.bars.back().length;
+  const auto& times = spec.times.empty() ? c.times : spec.times;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    reports::Figure::Panel panel;
+    panel.label = fmt::format("t = {:g} {}", times[i], c.time_unit);
+    if (i < spec.captions.size()) panel.label += ": " + spec.captions[i];
+    for (const std::string& method : spec.methods) {
+      const reports::Run* run = find(runs, spec, method);
+      if (!run) {
+        figure.notes.push_back(method + " is missing: its run did not complete");
+        continue;
+      }
+      for (const auto& sample : run->samples) {
+        if (sample.asked != times[i]) continue;
+        if (panel.series.empty() && sample.exact_curves.count(spec.field)) {
+          panel.series.push_back({"exact", "exact", sample.exact_curves.at(spec.field)});
         }
-        for (const auto& sample : run->samples) {
-          if (sample.asked != times[i]) continue;
-          if (panel.series.empty() && sample.exact_curves.count(spec.field)) {
-            panel.series.push_back({"exact", "exact", sample.exact_curves.at(spec.field)});
-          }
-          const bool fem = method == "fem";
-          panel.series.push_back(
-              {fem ? "FEM" : "MPM, " + upper(method.substr(4)), fem ? "fem" : "mpm", sample.curves.at(spec.field)});
+        panel.series.push_back({name_of(method), kind_of(method), sample.curves.at(spec.field)});
+      }
+    }
+    for (const auto& series : panel.series) widen(figure, series.curve);
+    figure.panels.push_back(std::move(panel));
+  }
+  if (moves) {
+    bool any = false;
+    for (const auto& panel : figure.panels) {
+      for (const auto& series : panel.series) {
+        for (const double x : series.curve.x) {
+          if (!std::isfinite(x)) continue;
+          figure.x_min = any ? std::min(figure.x_min, x) : x;
+          figure.x_max = any ? std::max(figure.x_max, x) : x;
+          any = true;
         }
       }
-      for (const auto& series : panel.series) widen(figure, series.curve);
-      figure.panels.push_back(std::move(panel));
     }
-    const double height = figure.y_max - figure.y_min, margin = height > 0 ? 0.05 * height : 1;
-    figure.y_min -= margin;
-    figure.y_max += margin;
-    if (spec.range) {
-      figure.y_min = (*spec.range)[0];
-      figure.y_max = (*spec.range)[1];
+    const double room = 0.02 * (figure.x_max - figure.x_min);
+    figure.x_min -= room;
+    figure.x_max += room;
+  }
+  const double height = figure.y_max - figure.y_min, margin = height > 0 ? 0.05 * height : 1;
+  figure.y_min -= margin;
+  figure.y_max += margin;
+  if (spec.range) {
+    figure.y_min = (*spec.range)[0];
+    figure.y_max = (*spec.range)[1];
+  }
+}
+
+}  // namespace
+
+std::vector<reports::Figure> make_figures(const Case& whole, const std::vector<reports::Run>& runs) {
+  std::vector<reports::Figure> figures;
+  for (const FigureSpec& spec : whole.figures) {
+    Case c = whole;
+    for (const auto& [name, value] : spec.parameters) c.parameters[name] = value;
+    reports::Figure figure;
+    figure.id = spec.id;
+    const std::string title = spec.title.empty() ? c.title : spec.title;
+    figure.title = spec.id.rfind("fig", 0) == 0 ? fmt::format("Fig. {}. {}", spec.id.substr(3), title) : title;
+    figure.notes = notes_of(c, spec);
+    if (spec.kind == "motion") {
+      add_motion(c, spec, runs, figure);
+    } else {
+      add_profiles(c, spec, runs, figure);
     }
     figures.push_back(std::move(figure));
   }

@@ -59,7 +59,7 @@ analytic::Quantity quantity_of(const std::string& field) {
 Leaf leaf_of(const Case& c, const Run& run) {
   for (const Leaf& leaf : leaves(c)) {
     if (leaf.method == run.method && leaf.cells == run.cells && leaf.courant == run.courant_asked &&
-        particles_label(leaf.particles) == run.particles) {
+        particles_label(leaf.particles) == run.particles && parameters_label(leaf.parameters) == run.parameters) {
       return leaf;
     }
   }
@@ -79,7 +79,7 @@ bool wanted(const GateSpec& gate, double time) {
 /// Leading-order theory of a step: asked for by name, beside the run's own prediction.
 std::optional<double> airy(const Case& c, const Run& run, const reports::FieldError& error, analytic::Quantity q,
                            analytic::Norm norm) {
-  const auto exact = make_exact(c);
+  const auto exact = make_exact(c, leaf_of(c, run));
   const double time = error.time * time_unit(c, c.time_unit);
   auto predicted = analytic::airy_step_error(*exact, discretisation(c, leaf_of(c, run), run.courant), q, norm, time);
   if (predicted) *predicted /= error.scale;
@@ -172,8 +172,9 @@ void judge_ratio(const GateSpec& gate, const std::vector<Reading>& readings, Gat
 
 /// The order written in the case file must be the one that theory gives, where theory has one.
 void check_expectation(const Case& c, const GateSpec& gate, const Run& run) {
-  const auto exact = make_exact(c);
-  if (!exact) return;
+  const Leaf leaf = leaf_of(c, run);
+  const auto exact = make_exact(with_parameters(c, leaf), leaf);
+  if (!exact || !is_field(split(gate.quantity).first)) return;
   const auto [field, norm] = split(gate.quantity);
   const auto scheme = discretisation(c, leaf_of(c, run), run.courant).scheme;
   const auto theory = analytic::expected_order(*exact, scheme, quantity_of(field), norm_of(norm));
@@ -189,8 +190,10 @@ void judge_order(const Case& c, const GateSpec& gate, const std::vector<Reading>
                                *gate.expect, low, high);
   std::map<std::string, std::vector<Reading>> groups;  // all but the mesh held fast
   for (const Reading& r : readings) {
-    groups[fmt::format("{} C={:g}{}, t = {:g} {}", r.run->method, r.run->courant_asked,
-                       r.run->particles.empty() ? "" : " particles " + r.run->particles, r.time, c.time_unit)]
+    groups[fmt::format("{} C={:g}{}{}{}", r.run->method, r.run->courant_asked,
+                       r.run->particles.empty() ? "" : " particles " + r.run->particles,
+                       r.run->parameters.empty() ? "" : " " + r.run->parameters,
+                       std::isnan(r.time) ? "" : fmt::format(", t = {:g} {}", r.time, c.time_unit))]
         .push_back(r);
   }
   for (auto& [name, group] : groups) {

@@ -12,6 +12,22 @@ bool allowed(const std::vector<T>& list, const T& value) {
   return list.empty() || std::find(list.begin(), list.end(), value) != list.end();
 }
 
+/// Every combination of one value for each name; the last name varies fastest.
+std::vector<Parameters> combinations(const std::map<std::string, std::vector<double>>& axes) {
+  std::vector<Parameters> all{{}};
+  for (const auto& [name, values] : axes) {
+    std::vector<Parameters> longer;
+    for (const Parameters& one : all) {
+      for (const double value : values) {
+        longer.push_back(one);
+        longer.back()[name] = value;
+      }
+    }
+    all = std::move(longer);
+  }
+  return all;
+}
+
 }  // namespace
 
 std::vector<Leaf> leaves(const Case& c) {
@@ -23,8 +39,10 @@ std::vector<Leaf> leaves(const Case& c) {
     for (const auto& method : block.method) {
       for (const auto& particles : block.particles) {
         for (const double courant : block.courant) {
-          for (const int cells : block.cells) {
-            add({method, cells, courant, method == "fem" ? std::vector<double>{} : particles});
+          for (const Parameters& parameters : combinations(block.parameters)) {
+            for (const int cells : block.cells) {
+              add({method, cells, courant, method == "fem" ? std::vector<double>{} : particles, parameters});
+            }
           }
         }
       }
@@ -34,8 +52,23 @@ std::vector<Leaf> leaves(const Case& c) {
 }
 
 bool matches(const Where& where, const Leaf& leaf) {
+  for (const auto& [name, values] : where.parameters) {
+    const auto own = leaf.parameters.find(name);
+    if (own == leaf.parameters.end() || !allowed(values, own->second)) return false;
+  }
   return allowed(where.method, leaf.method) && allowed(where.cells, leaf.cells) &&
          allowed(where.courant, leaf.courant) && (leaf.method == "fem" || allowed(where.particles, leaf.particles));
+}
+
+Case with_parameters(Case c, const Leaf& leaf) {
+  for (const auto& [name, value] : leaf.parameters) c.parameters[name] = value;
+  return c;
+}
+
+std::string parameters_label(const Parameters& parameters) {
+  std::string label;
+  for (const auto& [name, value] : parameters) label += fmt::format("{}{}={:g}", label.empty() ? "" : " ", name, value);
+  return label;
 }
 
 std::string particles_label(const std::vector<double>& positions) {

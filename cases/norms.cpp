@@ -22,35 +22,49 @@ double value_at(const Field& field, double x) {
   return (1 - s) * field.value[i - 1] + s * field.value[i];
 }
 
-Norms error_norms(const Field& field, const analytic::ExactSolution& exact, analytic::Quantity quantity,
-                  double length) {
-  std::vector<double> breaks = field.edges.empty() ? field.x : field.edges;
-  breaks.push_back(0);
-  breaks.push_back(length);
-  for (const analytic::Front& front : exact.fronts(field.time)) breaks.push_back(front.position);
-  std::sort(breaks.begin(), breaks.end());
+namespace {
 
+/// The interior of a bar between `marks` and its ends. Two marks that are one but for round-off leave a sliver on whose
+/// side of a front nothing can be said, so it is left out.
+template <class F>
+void for_each_piece(const Span& bar, std::vector<double> marks, const std::vector<analytic::Front>& fronts, F&& f) {
+  marks.push_back(bar.begin);
+  marks.push_back(bar.end);
+  for (const analytic::Front& front : fronts) marks.push_back(front.position);
+  std::sort(marks.begin(), marks.end());
+  const double sliver = 1e-12 * std::max({bar.end - bar.begin, std::abs(bar.begin), std::abs(bar.end)});
+  for (std::size_t i = 0; i + 1 < marks.size(); ++i) {
+    const double begin = std::max(marks[i], bar.begin), end = std::min(marks[i + 1], bar.end);
+    if (end - begin >= sliver) f(begin, end);
+  }
+}
+
+}  // namespace
+
+Norms error_norms(const Field& field, const analytic::ExactSolution& exact, analytic::Quantity quantity,
+                  const std::vector<Span>& bars) {
   constexpr std::size_t points = 4;
   const std::unique_ptr<gsl_integration_glfixed_table, void (*)(gsl_integration_glfixed_table*)> rule(
       gsl_integration_glfixed_table_alloc(points), gsl_integration_glfixed_table_free);
   const double scale = exact.scale(quantity);  // divided by before squaring, or small fields would underflow
+  const auto fronts = exact.fronts(field.time);
   Norms norms;
   double covered = 0;
   bool is_nan = false;
-  for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
-    const double begin = breaks[i], end = breaks[i + 1];
-    // A front that stands on an edge but for round-off leaves a sliver on whose side of the front nothing can be said.
-    if (begin < 0 || end > length || end - begin < 1e-12 * length) continue;
-    for (std::size_t g = 0; g < points; ++g) {
-      double x = 0, weight = 0;
-      gsl_integration_glfixed_point(begin, end, g, &x, &weight, rule.get());
-      const double error = std::abs(value_at(field, x) - exact.at(quantity, x, field.time)) / scale;
-      is_nan = is_nan || std::isnan(error);  // std::max would drop it
-      norms.l1 += weight * error;
-      norms.l2 += weight * error * error;
-      norms.linf = std::max(norms.linf, error);
-    }
-    covered += end - begin;
+  for (std::size_t b = 0; b < bars.size(); ++b) {
+    const Field part = field.of_bar(b);
+    for_each_piece(bars[b], part.edges.empty() ? part.x : part.edges, fronts, [&](double begin, double end) {
+      for (std::size_t g = 0; g < points; ++g) {
+        double x = 0, weight = 0;
+        gsl_integration_glfixed_point(begin, end, g, &x, &weight, rule.get());
+        const double error = std::abs(value_at(part, x) - exact.at(quantity, x, field.time)) / scale;
+        is_nan = is_nan || std::isnan(error);  // std::max would drop it
+        norms.l1 += weight * error;
+        norms.l2 += weight * error * error;
+        norms.linf = std::max(norms.linf, error);
+      }
+      covered += end - begin;
+    });
   }
   if (is_nan || !(covered > 0)) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -59,6 +73,15 @@ Norms error_norms(const Field& field, const analytic::ExactSolution& exact, anal
   norms.l1 /= covered;
   norms.l2 = std::sqrt(norms.l2 / covered);
   return norms;
+}
+
+double mean_between_fronts(const analytic::ExactSolution& exact, analytic::Quantity quantity, const Span& bar, double t) {
+  double sum = 0, covered = 0;
+  for_each_piece(bar, {}, exact.fronts(t), [&](double begin, double end) {
+    sum += (end - begin) * exact.at(quantity, (begin + end) / 2, t);
+    covered += end - begin;
+  });
+  return sum / covered;
 }
 
 }  // namespace diptych::cases

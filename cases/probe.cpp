@@ -14,7 +14,7 @@ double end_share(const Case& c, const Leaf& leaf, const LoadSpec& load) {
   std::vector<double> distances;
   for (const double xi : leaf.particles) distances.push_back(load.end == End::left ? xi : 1 - xi);
   std::sort(distances.begin(), distances.end());
-  const double cell = c.length / leaf.cells;
+  const double cell = c.first().length / leaf.cells;
   return analytic::end_stress_share(distances, length_of(c, load.layer_thickness, leaf.cells) / cell);
 }
 
@@ -24,10 +24,10 @@ reports::ProbeValue read_probe(const Case& c, const Leaf& leaf, const Probe& pro
   const Field& field = probe.field == "stress"     ? snapshot.stress
                        : probe.field == "velocity" ? snapshot.velocity
                                                    : snapshot.displacement;
-  const double x = length_of(c, probe.at, leaf.cells), cell = c.length / leaf.cells;
+  const double x = length_of(c, probe.at, leaf.cells), cell = c.first().length / leaf.cells;
   reports::ProbeValue value{probe.id, value_at(field, x), {}};
   for (const LoadSpec& load : c.loads) {
-    const bool in_end_cell = load.end == End::left ? x < cell : x > c.length - cell;
+    const bool in_end_cell = load.end == End::left ? x < cell : x > c.first().length - cell;
     const bool ramp = load.history == "ramp", step = load.history == "step";
     const double steady =
         load.start.value * time_unit(c, load.start.unit) + (ramp ? load.rise.value * time_unit(c, load.rise.unit) : 0);

@@ -1,4 +1,4 @@
-// Explicit finite elements on a bar: 2-node elements, one Gauss point, lumped mass, central differences.
+// Explicit finite elements on bars: 2-node elements, one Gauss point, lumped mass, central differences.
 #pragma once
 
 #include "material/record.hpp"
@@ -6,12 +6,14 @@
 
 namespace diptych::fem {
 
-/// Largest stable time step h/c of lumped 2-node elements [s].
+/// Largest stable time step of lumped 2-node elements [s]: the least h/c of the bars, and with artificial viscosity of
+/// strength n = ν/(c h) that of C = √(1 + n²) − n.
 double critical_time_step(const Scene&, int cells);
 
-/// Runs the scene on `cells` equal elements. Fields of the snapshots: stress per element and displacement per node at
-/// the step's time, velocity per node half a step before it.
-/// Throws std::invalid_argument for a scene that needs what this method has not: convection or a boundary layer.
+/// Runs the scene with `cells` equal elements in the first bar and elements as near to that size as possible in the
+/// others. Fields of the snapshots: stress per element and displacement per node at the step's time, velocity per node
+/// half a step before it. Strains are those of the reference configuration, so bars may fly any distance.
+/// Throws std::invalid_argument for a boundary layer, which this method has not.
 Record run(const Scene&, int cells, const Stepping&);
 
 }  // namespace diptych::fem

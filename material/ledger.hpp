@@ -11,11 +11,12 @@
 
 namespace diptych {
 
-/// Adds up what loads and supports put in and compares it with what the bar holds. For each kick of length τ that takes
-/// v⁻ to v⁺ under forces f, the work is τ f·(v⁻ + v⁺)/2: the discrete kinetic energy changes by exactly that much.
+/// Adds up what loads and supports put in and compares it with what the bars hold and what took it away. For each kick of
+/// length τ that takes v⁻ to v⁺ under forces f, the work is τ f·(v⁻ + v⁺)/2: the discrete kinetic energy changes by
+/// exactly that much.
 class Ledger {
  public:
-  /// first_time: of the velocity in the first line [s]; free_mass: of a bar that no support holds, else 0 [kg].
+  /// first_time: of the velocity in the first line [s]; free_mass: of bars that no support holds, else 0 [kg].
   Ledger(Books books, double time_step, double first_time, double energy, double momentum, double free_mass)
       : books_(books),
         dt_(time_step),
@@ -32,12 +33,20 @@ class Ledger {
   /// f·v⁺ after it.
   void after_kick(double work_rate, double kick) { add_work(kick * work_rate / 2); }
 
+  /// Energies that left on ways of their own [J]. Whatever belongs to a kick is told before its line is closed.
+  void take_by_contact(double energy) { contact_ += energy; }
+  void take_by_viscosity(double energy) { viscous_ += energy; }
+  void take_by_scheme(double energy) { scheme_ += energy; }
+
   void close_line(double kinetic, double strain, double dissipated, double momentum) {
-    const double held = kinetic + strain + dissipated_;  // strain starts from ψⁿ, so heat is that of the steps before
+    const double held = kinetic + strain + dissipated_ + viscous_;  // strain starts from ψⁿ, so heat is of steps before
     // The books open with the first line: before it the leapfrog has no energy of its own.
-    if (sums_.lines == 0) opening_ = held - work_;
-    add({first_time_ + static_cast<double>(sums_.lines) * dt_, kinetic, strain, dissipated_, work_,
-         work_ + opening_ - held, momentum, start_momentum_ + impulse_});
+    if (sums_.lines == 0) {
+      opening_ = held + contact_ - work_;
+      scheme_ = 0;
+    }
+    add({first_time_ + static_cast<double>(sums_.lines) * dt_, kinetic, strain, dissipated_, viscous_, contact_, scheme_,
+         work_, work_ + opening_ - held - contact_ - scheme_, momentum, start_momentum_ + impulse_});
     dissipated_ += dissipated;
   }
 
@@ -66,8 +75,9 @@ class Ledger {
   void add(const LedgerLine& line) {
     ++sums_.lines;
     sums_.last = line;
-    sums_.held = std::max(sums_.held, line.kinetic + std::abs(line.strain) + line.dissipated);
+    sums_.held = std::max(sums_.held, line.kinetic + std::abs(line.strain) + line.dissipated + std::abs(line.viscous));
     sums_.kinetic = std::max(sums_.kinetic, line.kinetic);
+    sums_.taken = std::max(sums_.taken, std::abs(line.contact + line.scheme + line.lost));
     sums_.lost = std::max(sums_.lost, std::abs(line.lost));
     sums_.momentum = std::max(sums_.momentum, std::abs(line.momentum - line.impulse));
     sums_.finite =
@@ -79,7 +89,7 @@ class Ledger {
   double dt_, first_time_;
   double start_momentum_, free_mass_;
   double input_;  ///< sum of all that was put in or taken out
-  double work_ = 0, impulse_ = 0, dissipated_ = 0, opening_ = 0;
+  double work_ = 0, impulse_ = 0, dissipated_ = 0, viscous_ = 0, contact_ = 0, scheme_ = 0, opening_ = 0;
   LedgerSums sums_;
   std::vector<LedgerLine> lines_;
 };

@@ -6,7 +6,9 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <variant>
+#include <vector>
 
 namespace diptych::material {
 
@@ -28,6 +30,7 @@ struct Elastic {
   };
 
   static constexpr const char* feature = "elastic";
+  static constexpr bool yields = false;
   double elastic_wave_speed() const { return std::sqrt(youngs_modulus / density); }
   double stored(const State& state) const { return state.stress * state.stress / (2 * youngs_modulus); }
 
@@ -52,6 +55,7 @@ struct Hardening {
   };
 
   static constexpr const char* feature = "plasticity";
+  static constexpr bool yields = true;
   double elastic_wave_speed() const { return std::sqrt(youngs_modulus / density); }
   double plastic_modulus() const { return youngs_modulus * tangent_modulus / (youngs_modulus - tangent_modulus); }
   double stored(const State& state) const { return state.stress * state.stress / (2 * youngs_modulus); }
@@ -84,6 +88,23 @@ inline double density(const Material& m) {
 }
 inline double wave_speed(const Material& m) {
   return std::visit([](const auto& law) { return law.elastic_wave_speed(); }, m);
+}
+
+/// The laws of several bodies as one type, so that none is asked for inside a loop: elastic ones beside others become
+/// hardening ones that never yield, which answer with the same bits.
+inline std::variant<std::vector<Elastic>, std::vector<Hardening>> laws(const std::vector<Material>& materials) {
+  std::vector<Elastic> elastic;
+  std::vector<Hardening> hardening;
+  for (const Material& m : materials) {
+    if (const auto* law = std::get_if<Elastic>(&m)) {
+      elastic.push_back(*law);
+      hardening.push_back({law->youngs_modulus, law->density, 0, std::numeric_limits<double>::infinity()});
+    } else {
+      hardening.push_back(std::get<Hardening>(m));
+    }
+  }
+  if (elastic.size() == materials.size()) return elastic;
+  return hardening;
 }
 
 }  // namespace diptych::material

@@ -77,6 +77,7 @@ Record take_steps(Body& body, const Stepping& stepping) {
   record.time = static_cast<double>(record.steps) * stepping.time_step;
   record.sums = ledger.sums();
   record.ledger = ledger.take_lines();
+  record.touches = body.touches();
   record.features = body.features();
   record.work = body.work(record.steps);
   return record;

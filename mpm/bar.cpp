@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <stdexcept>
 
 #include "material/stepping.hpp"
@@ -32,27 +33,35 @@ struct NodalForce {
 /// stays one ulp inside its cell: no node it touches is without mass, and the limit ξ → 0 is taken rather than 0/0.
 constexpr double edge = 0.5 - 0x1p-54;
 
-template <class Law, bool convected>
-class Bar {
+/// What a particle must carry beside its state: nothing where one bar fills the grid cell by cell and stays; its cell and
+/// mass where several bars stand in it; and its stretch where it moves.
+enum class Carries { nothing, cell, stretch };
+
+template <class Law, Carries carries, bool viscous>
+class Bars {
  public:
-  Bar(const Scene& scene, const Law& law, int cells, const std::vector<double>& positions, Scheme scheme,
-      const Stepping& stepping)
+  static constexpr bool placed = carries != Carries::nothing, convected = carries == Carries::stretch;
+
+  Bars(const Scene& scene, const std::vector<Law>& laws, int cells, const std::vector<double>& positions, Scheme scheme,
+       const Stepping& stepping)
       : scene_(scene),
-        law_(law),
         positions_(positions),
         scheme_(scheme),
         dt_(stepping.time_step),
-        h_(scene.length / cells),
-        per_cell_(positions.size()),
-        cells_(static_cast<std::size_t>(cells)),
-        particle_mass_(law.density * h_ / static_cast<double>(per_cell_)),
-        first_cell_(convected && scene.left == Support::free ? cells_ : 0),
-        grid_cells_(first_cell_ + cells_ + (convected && scene.right == Support::free ? cells_ : 0)),
-        node_(grid_cells_ + 1),
-        cell_start_(grid_cells_ + 1) {
+        h_(scene.bars[0].length / cells),
+        c_max_(largest_wave_speed(scene)),
+        per_cell_(positions.size()) {
+    for (std::size_t b = 0, first = 0; b < scene.bars.size(); ++b) {
+      const auto count = static_cast<std::size_t>(cells_of(scene, b, cells));
+      members_.push_back({laws[b], count, first, first + count * per_cell_,
+                          laws[b].density * h_ / static_cast<double>(per_cell_)});
+      first = members_.back().last;
+    }
+    lay_grid();
     place_particles();
     choose_boundary_layers();
     map_mass();
+    watch_contacts(0);
     if (scheme_ == Scheme::usf) bring_usf_to_its_half_step();
   }
 
@@ -60,22 +69,22 @@ class Bar {
     if (scheme_ == Scheme::usf) step_usf(n, ledger);
     if (scheme_ == Scheme::usl) step_usl(n, ledger);
     if (scheme_ == Scheme::musl) step_musl(n, ledger);
+    if constexpr (convected) watch_contacts(n + 1);
   }
 
   // Update stress first: (vⁿ, σⁿ⁻½) → (vⁿ⁺¹, σⁿ⁺½).
   void step_usf(long n, Ledger* ledger) {
     const Kick kick = kick_after(n, dt_);
     map_momentum();
-    if (n > 0) {  // the half-step from 0 to ½ is behind
-      if (ledger) ledger->after_kick(work_rate(), dt_);
-      update_stress(dt_, ledger);  // with the particles' velocities on the grid
-    }
-    internal_force();      // eq. 19
+    if (n > 0) update_stress(dt_, ledger);  // with the particles' velocities; the half-step from 0 to ½ is behind
+    internal_force();                       // eq. 19
+    if (ledger && n > 0) account_for_remapping(ledger);
     external_force(kick);  // eqs. 16, 17, 20
     if (ledger) ledger->before_kick(work_rate(), impulse_rate(), kick.length);
     integrate_momentum(kick.length);  // eq. 18
     update_velocity(kick.length);     // eq. 11
     move_particles(dt_);              // eqs. 9, 10
+    if (ledger) end_kick(kick.length, ledger);
     convect();
   }
 
@@ -83,13 +92,15 @@ class Bar {
   void step_usl(long n, Ledger* ledger) {
     const Kick kick = kick_around(n, dt_);
     map_momentum();
-    internal_force();      // eq. 19
-    external_force(kick);  // eqs. 16, 17, 20
+    internal_force();                           // eq. 19
+    if (ledger) account_for_remapping(ledger);  // since the last update
+    external_force(kick);                       // eqs. 16, 17, 20
     if (ledger) ledger->before_kick(work_rate(), impulse_rate(), kick.length);
     integrate_momentum(kick.length);  // eq. 18
     update_velocity(kick.length);     // eq. 11
     move_particles(dt_);              // eqs. 9, 10
     if (ledger) ledger->after_kick(work_rate(), kick.length);
+    if (ledger) account_for_lumping(kick.length, ledger);
     update_stress(dt_, ledger);  // with the grid's own new velocities
     convect();
   }
@@ -98,8 +109,9 @@ class Bar {
   void step_musl(long n, Ledger* ledger) {
     const Kick kick = kick_around(n, dt_);
     map_momentum();
-    internal_force();      // eq. 19
-    external_force(kick);  // eqs. 16, 17, 20
+    internal_force();                           // eq. 19
+    if (ledger) account_for_remapping(ledger);  // since the last update
+    external_force(kick);                       // eqs. 16, 17, 20
     if (ledger) ledger->before_kick(work_rate(), impulse_rate(), kick.length);
     integrate_momentum(kick.length);  // eq. 18
     update_velocity(kick.length);     // eq. 11
@@ -118,12 +130,15 @@ class Bar {
     s.stress.time = usf ? time - half : time;
     s.velocity.time = usf ? time : time - half;
     s.displacement.time = usf ? time + half : time;
-    for (std::size_t p = 0; p < offset_.size(); ++p) {
-      s.stress.x.push_back(reference(p));
-      s.stress.edges.push_back(share_begin(p));
-      s.stress.value.push_back(state_[p].stress);
+    s.stress.first.clear();
+    for (std::size_t b = 0; b < members_.size(); ++b) {
+      const std::size_t count = members_[b].last - members_[b].first;
+      s.stress.first.push_back(members_[b].first);
+      for (std::size_t k = 0; k <= count; ++k) s.stress.edges.push_back(share_begin(b, k));
+      for (std::size_t k = 0; k < count; ++k) s.stress.x.push_back(reference(b, k));
     }
-    s.stress.edges.push_back(scene_.length);
+    for (const auto& state : state_) s.stress.value.push_back(state.stress);
+    s.velocity.first = s.displacement.first = s.stress.first;
     s.velocity.x = s.displacement.x = s.stress.x;
     s.velocity.value = velocity_;
     s.displacement.value = displacement_;
@@ -134,22 +149,31 @@ class Bar {
   double first_ledger_time() const { return scheme_ == Scheme::usf ? dt_ : dt_ / 2; }
   double energy() const {
     double sum = kinetic_energy();
-    for (std::size_t p = 0; p < state_.size(); ++p) sum += length(p) * law_.stored(state_[p]);
+    for (const Member& member : members_) {
+      for (std::size_t p = member.first; p < member.last; ++p) sum += rest_length() * member.law.stored(state_[p]);
+    }
     return sum;
   }
   double momentum() const {
     double sum = 0;
-    for (const double v : velocity_) sum += particle_mass_ * v;
+    for (std::size_t p = 0; p < velocity_.size(); ++p) sum += mass(p) * velocity_[p];
     return sum;
   }
   double free_mass() const {
-    return scene_.left == Support::free && scene_.right == Support::free ? law_.density * scene_.length : 0;
+    double sum = 0;
+    if (scene_.left == Support::free && scene_.right == Support::free) {
+      for (const Member& member : members_) sum += static_cast<double>(member.last - member.first) * member.particle_mass;
+    }
+    return sum;
   }
+  std::vector<Touch> touches() const { return touches_; }
   /// Told by what this run has built up, not by what the scene asks for.
   std::vector<std::string> features() const {
     std::vector<std::string> active{Law::feature};
     if (!body_.empty()) active.push_back("body-force");
     if (!advance_.empty()) active.push_back("convection");
+    if (members_.size() > 1) active.push_back("contact");
+    if (!q_.empty()) active.push_back("viscosity");
     if (std::any_of(layers_.begin(), layers_.end(), [](const auto& layer) { return !layer.empty(); })) {
       active.push_back("boundary-layer");
     }
@@ -159,32 +183,74 @@ class Bar {
   Work work(long steps) const {
     const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
     return {0, static_cast<long>(offset_.size()) * steps, static_cast<long>(node_.size()) * steps,
-            bytes(offset_) + bytes(state_) + bytes(velocity_) + bytes(displacement_) + bytes(cell_) + bytes(length_) +
-                bytes(advance_) + bytes(node_) + bytes(body_) + bytes(cell_start_)};
+            bytes(offset_) + bytes(state_) + bytes(velocity_) + bytes(displacement_) + bytes(cell_) + bytes(mass_) +
+                bytes(stretch_) + bytes(advance_) + bytes(q_) + bytes(node_) + bytes(body_) + bytes(cell_start_)};
   }
 
  private:
   // --- particles and cells -------------------------------------------------------------------------------------------
 
+  /// One bar of the scene: its particles are [first, last).
+  struct Member {
+    Law law;
+    std::size_t cells, first, last;
+    double particle_mass;
+  };
+
+  /// The grid has a face where the first bar begins. Bars that move have room on their free sides.
+  void lay_grid() {
+    const double span = scene_.end() - scene_.begin();
+    auto cells = static_cast<std::size_t>(std::ceil(span / h_ * (1 - 1e-12)));
+    if constexpr (!placed) cells = members_[0].cells;
+    first_cell_ = convected && scene_.left == Support::free ? cells : 0;
+    grid_cells_ = first_cell_ + cells + (convected && scene_.right == Support::free ? cells : 0);
+    node_.resize(grid_cells_ + 1);
+    cell_start_.resize(grid_cells_ + 1);
+  }
+
   void place_particles() {
-    const std::size_t count = cells_ * per_cell_;
+    const std::size_t count = members_.back().last;
     offset_.resize(count);
     state_.resize(count);
     velocity_.resize(count);
     displacement_.resize(count);
-    if constexpr (convected) {
+    if constexpr (placed) {
       cell_.resize(count);
-      length_.assign(count, h_ / static_cast<double>(per_cell_));
+      mass_.resize(count);
+    }
+    if constexpr (convected) {
+      stretch_.assign(count, 1);
       advance_.resize(count);
     }
-    for (std::size_t p = 0; p < count; ++p) {
-      offset_[p] = std::clamp(positions_[p % per_cell_] - 0.5, -edge, edge);
-      if constexpr (convected) cell_[p] = static_cast<std::int32_t>(first_cell_ + p / per_cell_);
-      if (scene_.initial_stress) state_[p].stress = scene_.initial_stress(reference(p));
-      if (scene_.initial_velocity) velocity_[p] = scene_.initial_velocity(reference(p));
+    if constexpr (viscous) q_.resize(count);
+    for (std::size_t b = 0; b < members_.size(); ++b) {
+      const Bar& bar = scene_.bars[b];
+      // Where the bar begins, in cells; a whole number but for round-off is whole, so that its shape functions are to the
+      // bit those of the bar alone.
+      double begin = (bar.begin - scene_.begin()) / h_;
+      if (std::abs(begin - std::round(begin)) < 1e-9) begin = std::round(begin);
+      const double shift = begin - std::floor(begin);
+      for (std::size_t p = members_[b].first; p < members_[b].last; ++p) {
+        const std::size_t k = p - members_[b].first;
+        double offset = positions_[k % per_cell_] - 0.5 + shift;
+        auto cell = static_cast<std::int32_t>(first_cell_ + static_cast<std::size_t>(begin) + k / per_cell_);
+        if (offset > 0.5) {
+          offset -= 1;
+          ++cell;
+        }
+        offset_[p] = std::clamp(offset, -edge, edge);
+        if constexpr (placed) {
+          cell_[p] = cell;
+          mass_[p] = members_[b].particle_mass;
+        }
+        if (bar.initial_stress) state_[p].stress = bar.initial_stress(reference(b, k));
+        if (bar.initial_velocity) velocity_[p] = bar.initial_velocity(reference(b, k));
+      }
     }
-    for (std::size_t c = 0; c <= grid_cells_; ++c) {
-      cell_start_[c] = (std::clamp(c, first_cell_, first_cell_ + cells_) - first_cell_) * per_cell_;
+    if constexpr (placed) {
+      count_particles();
+    } else {
+      for (std::size_t c = 0; c <= grid_cells_; ++c) cell_start_[c] = c * per_cell_;
     }
   }
 
@@ -196,24 +262,33 @@ class Bar {
     convect();
   }
 
+  double rest_length() const { return h_ / static_cast<double>(per_cell_); }
   /// Length of bar that a particle stands for: constant unless the particles move.
   double length(std::size_t p) const {
-    if constexpr (convected) return length_[p];
-    return h_ / static_cast<double>(per_cell_);
+    if constexpr (convected) return rest_length() * stretch_[p];
+    return rest_length();
   }
-  /// Where a particle started.
-  double reference(std::size_t p) const {
-    const double cell = static_cast<double>(p / per_cell_) + positions_[p % per_cell_];
-    return scene_.length * (cell / static_cast<double>(cells_));
+  double mass(std::size_t p) const {
+    if constexpr (placed) return mass_[p];
+    return members_[0].particle_mass;
   }
-  /// Left end of a particle's share of the bar, in reference coordinates.
-  double share_begin(std::size_t p) const {
-    return scene_.length * (static_cast<double>(p) / static_cast<double>(cells_ * per_cell_));
+  double stress(std::size_t p) const {
+    if constexpr (viscous) return state_[p].stress + q_[p];
+    return state_[p].stress;
+  }
+  /// Where the k-th particle of a bar started.
+  double reference(std::size_t b, std::size_t k) const {
+    const double cell = static_cast<double>(k / per_cell_) + positions_[k % per_cell_];
+    return scene_.bars[b].begin + scene_.bars[b].length * (cell / static_cast<double>(members_[b].cells));
+  }
+  /// Left end of its share of the bar, in reference coordinates.
+  double share_begin(std::size_t b, std::size_t k) const {
+    return scene_.bars[b].begin +
+           scene_.bars[b].length * (static_cast<double>(k) / static_cast<double>(members_[b].cells * per_cell_));
   }
   double position(std::size_t cell, std::size_t p) const {
-    return (static_cast<double>(cell) - static_cast<double>(first_cell_) + 0.5 + offset_[p]) * h_;
+    return scene_.begin() + (static_cast<double>(cell) - static_cast<double>(first_cell_) + 0.5 + offset_[p]) * h_;
   }
-  bool has_particles(std::size_t cell) const { return cell_start_[cell] < cell_start_[cell + 1]; }
 
   /// Sum over a cell's particles from the outside in: a mirrored bar adds the same numbers in the same order.
   template <class F>
@@ -245,7 +320,7 @@ class Bar {
   void map_mass() {  // eq. 15
     gather(
         [&](std::size_t p) {
-          return Pair{particle_mass_ * (0.5 - offset_[p]), particle_mass_ * (0.5 + offset_[p])};
+          return Pair{mass(p) * (0.5 - offset_[p]), mass(p) * (0.5 + offset_[p])};
         },
         [](Node& node, double mass) { node.mass = mass; });
   }
@@ -253,7 +328,7 @@ class Bar {
   void map_momentum() {
     gather(
         [&](std::size_t p) {
-          const double momentum = particle_mass_ * velocity_[p];
+          const double momentum = mass(p) * velocity_[p];
           return Pair{(0.5 - offset_[p]) * momentum, (0.5 + offset_[p]) * momentum};
         },
         [](Node& node, double momentum) { node.velocity = node.mass > 0 ? momentum / node.mass : 0; });
@@ -263,7 +338,7 @@ class Bar {
   void internal_force() {  // eq. 19: gradients −1/h and 1/h
     gather(
         [&](std::size_t p) {
-          const double force = length(p) / h_ * state_[p].stress;
+          const double force = length(p) / h_ * stress(p);
           return Pair{force, -force};
         },
         [](Node& node, double force) { node.force = force; });
@@ -303,13 +378,19 @@ class Bar {
       auto& layer = layers_.emplace_back();
       if (load.transfer != Transfer::boundary_layer) continue;
       const double thickness = load.layer_thickness;
+      const Member& member = load.end == End::left ? members_.front() : members_.back();
       // From the surface inwards, counted from the loaded end: a mirrored bar adds the same numbers in the same order.
-      for (std::size_t q = 0; q < offset_.size(); ++q) {
-        const double begin = share_begin(q), end = share_begin(q + 1);  // depths under the surface
+      for (std::size_t q = 0; q < member.last - member.first; ++q) {
+        const double begin = share_depth(member, q), end = share_depth(member, q + 1);
         const double inside = std::min(end - begin, thickness - begin);
-        if (inside > 0) layer.push_back({load.end == End::left ? q : offset_.size() - 1 - q, inside / thickness});
+        if (inside > 0) layer.push_back({load.end == End::left ? member.first + q : member.last - 1 - q, inside / thickness});
       }
     }
+  }
+  /// Depth under a bar's surface at which the share of its q-th particle begins.
+  double share_depth(const Member& member, std::size_t q) const {
+    const double length = scene_.bars[static_cast<std::size_t>(&member - members_.data())].length;
+    return length * (static_cast<double>(q) / static_cast<double>(member.cells * per_cell_));
   }
 
   void add_body_force(double time) {  // eq. 17a
@@ -318,7 +399,7 @@ class Bar {
     double carried = 0;
     for (; i < grid_cells_; ++i) {
       const Pair sum = sum_over_cell(i, [&](std::size_t p) {
-        const double force = particle_mass_ * scene_.body_force(position(i, p), time);
+        const double force = mass(p) * scene_.body_force(position(i, p), time);
         return Pair{(0.5 - offset_[p]) * force, (0.5 + offset_[p]) * force};
       });
       body_[i] = carried + sum.left;
@@ -345,11 +426,23 @@ class Bar {
 
   // --- grid to particles ---------------------------------------------------------------------------------------------
 
+  /// Calls f(p, left node, right node) for the particles of one bar.
+  template <class F>
+  void for_each_particle(const Member& member, F&& f) {
+    if constexpr (placed) {
+      for (std::size_t p = member.first; p < member.last; ++p) {
+        const auto c = static_cast<std::size_t>(cell_[p]);
+        f(p, node_[c], node_[c + 1]);
+      }
+    } else {
+      for (std::size_t c = 0; c < grid_cells_; ++c) {
+        for (std::size_t p = c * per_cell_; p < (c + 1) * per_cell_; ++p) f(p, node_[c], node_[c + 1]);
+      }
+    }
+  }
   template <class F>
   void for_each_particle(F&& f) {
-    for (std::size_t c = 0; c < grid_cells_; ++c) {
-      for (std::size_t p = cell_start_[c]; p < cell_start_[c + 1]; ++p) f(p, node_[c], node_[c + 1]);
-    }
+    for (const Member& member : members_) for_each_particle(member, f);
   }
 
   void update_velocity(double kick) {
@@ -376,17 +469,62 @@ class Bar {
 
   template <bool with_ledger>
   void update_stress(double strain_time, Ledger* ledger) {
-    double strain_energy = 0, dissipated = 0;
-    for_each_particle([&](std::size_t p, const Node& left, const Node& right) {
-      const double strain_increment = strain_time * (right.velocity - left.velocity) / h_;
-      if constexpr (with_ledger) {
-        strain_energy += length(p) * (law_.stored(state_[p]) + state_[p].stress * strain_increment / 2);
-      }
-      const material::Response response = law_.update(state_[p], strain_increment);
-      if constexpr (with_ledger) dissipated += length(p) * response.dissipated;
-      if constexpr (convected) length_[p] *= 1 + strain_increment;  // eq. 1
+    double strain_energy = 0, dissipated = 0, lost = 0, viscous_before = 0, viscous_after = 0;
+    [[maybe_unused]] double half_work_before = 0, half_work_after = 0;  // of the whole stress on half of the strain
+    [[maybe_unused]] double largest = 0;
+    if constexpr (viscous) {
+      if (scene_.viscosity->needs_largest()) largest = largest_gradient();
+    }
+    for (const Member& member : members_) {
+      const Law& law = member.law;
+      for_each_particle(member, [&](std::size_t p, const Node& left, const Node& right) {
+        const double gradient = (right.velocity - left.velocity) / h_;
+        // Strain of the reference configuration, as FEM has it: the two then solve one and the same problem.
+        double strain_increment = strain_time * gradient;
+        if constexpr (convected) strain_increment *= stretch_[p];
+        const double stress_before = state_[p].stress;
+        double stored_before = 0;
+        if constexpr (with_ledger) {
+          stored_before = law.stored(state_[p]);
+          strain_energy += rest_length() * (stored_before + stress_before * strain_increment / 2);
+          if constexpr (viscous) viscous_before += rest_length() * q_[p] * strain_increment / 2;
+          half_work_before += rest_length() * stress(p) * strain_increment / 2;
+        }
+        const material::Response response = law.update(state_[p], strain_increment);
+        if constexpr (convected) stretch_[p] += strain_increment;  // eq. 1
+        if constexpr (viscous) {
+          const bool york = scene_.viscosity->form == material::Viscosity::Form::york;
+          q_[p] = scene_.viscosity->stress(gradient, largest, law.density, york ? c_max_ : law.elastic_wave_speed(), h_);
+        }
+        if constexpr (with_ledger) {
+          dissipated += rest_length() * response.dissipated;
+          if constexpr (viscous) viscous_after += rest_length() * q_[p] * strain_increment / 2;
+          half_work_after += rest_length() * stress(p) * strain_increment / 2;
+          if constexpr (Law::yields) {  // the trapezium of the leapfrog across a yield point
+            lost += rest_length() * ((stress_before + response.stress) / 2 * strain_increment -
+                                     (response.stored - stored_before) - response.dissipated);
+          }
+        }
+      });
+    }
+    if constexpr (with_ledger) {
+      ledger->take_by_viscosity(viscous_before);
+      if (convected && scheme_ == Scheme::usf) ledger->take_by_scheme(-(half_work_of_kick_ + half_work_before));
+      ledger->close_line(kinetic_energy(), strain_energy, dissipated, momentum());
+      ledger->take_by_viscosity(viscous_after);
+      ledger->take_by_scheme(lost);
+      half_work_ = half_work_after;
+    }
+  }
+
+  /// Largest |D| where viscosity acts.
+  double largest_gradient() {
+    double largest = 0;
+    for_each_particle([&](std::size_t, const Node& left, const Node& right) {
+      const double D = (right.velocity - left.velocity) / h_;
+      if (scene_.viscosity->acts(D)) largest = std::max(largest, std::abs(D));
     });
-    if constexpr (with_ledger) ledger->close_line(kinetic_energy(), strain_energy, dissipated, momentum());
+    return largest;
   }
 
   // --- crossing cells ------------------------------------------------------------------------------------------------
@@ -415,7 +553,7 @@ class Bar {
     } else if (std::abs(offset) <= 0.5 + 1e-9) {  // round-off beyond a wall
       offset_[p] = std::clamp(offset, -edge, edge);
     } else {
-      trouble_ = "particle " + std::to_string(p) + " left the grid, which reaches one bar length beyond a free end";
+      trouble_ = "particle " + std::to_string(p) + " left the grid, which reaches as far beyond a free end as the bars reach";
     }
   }
 
@@ -429,17 +567,64 @@ class Bar {
   }
 
   std::size_t cell_of(std::size_t p) const {
-    if constexpr (convected) return static_cast<std::size_t>(cell_[p]);
+    if constexpr (placed) return static_cast<std::size_t>(cell_[p]);
     return p / per_cell_;
   }
   std::size_t left_end_node() const { return cell_of(0); }
   std::size_t right_end_node() const { return cell_of(offset_.size() - 1) + 1; }
 
+  // --- bars that meet ------------------------------------------------------------------------------------------------
+
+  /// Bars act on each other while the grid has a node that both of them reach.
+  void watch_contacts(long n) {
+    if constexpr (placed) {
+      for (std::size_t b = 0; b + 1 < members_.size(); ++b) {
+        const bool share = cell_[members_[b + 1].first] - cell_[members_[b].last - 1] <= 1;
+        const auto open = std::find_if(touches_.rbegin(), touches_.rend(),
+                                       [&](const Touch& t) { return t.left == b && std::isinf(t.to); });
+        const double now = static_cast<double>(n) * dt_;
+        if (share && open == touches_.rend()) touches_.push_back({b, now});
+        if (!share && open != touches_.rend()) open->to = now;
+      }
+    }
+  }
+
   // --- books ---------------------------------------------------------------------------------------------------------
+
+  /// What the scheme takes on its way from one map to the next. The stress was updated with one map's velocities, half of
+  /// its work on that strain stands in the strain energy, and the other half is done by the internal forces with the
+  /// particles' new stretches, places and velocities. The two cancel where nothing moved in between.
+  void account_for_remapping(Ledger* ledger) {
+    if (!convected && scheme_ != Scheme::usl) return;
+    double power = 0;
+    for (const Node& node : node_) power += node.force * node.velocity;
+    ledger->take_by_scheme(-(dt_ * power / 2 + half_work_));
+  }
+
+  /// USL's kick does τ²/2 Σ m a² of work on the grid with lumped masses; particles take up less of it.
+  void account_for_lumping(double kick, Ledger* ledger) {
+    double grid = 0, particles = 0;
+    for (const Node& node : node_) grid += node.mass * node.acceleration * node.acceleration;
+    for_each_particle([&](std::size_t p, const Node& left, const Node& right) {
+      const double a = (0.5 - offset_[p]) * left.acceleration + (0.5 + offset_[p]) * right.acceleration;
+      particles += mass(p) * a * a;
+    });
+    ledger->take_by_scheme(kick * kick / 2 * (grid - particles));
+  }
+
+  /// USF: the work of the kick's second half, at the places where its forces were found.
+  void end_kick(double kick, Ledger* ledger) {
+    map_momentum();
+    const double external = work_rate();
+    ledger->after_kick(external, kick);
+    double power = -external;
+    for (const Node& node : node_) power += node.force * node.velocity;
+    half_work_of_kick_ = kick * power / 2;
+  }
 
   double kinetic_energy() const {
     double sum = 0;
-    for (const double v : velocity_) sum += particle_mass_ * v * v / 2;
+    for (std::size_t p = 0; p < velocity_.size(); ++p) sum += mass(p) * velocity_[p] * velocity_[p] / 2;
     return sum;
   }
 
@@ -461,27 +646,31 @@ class Bar {
   }
 
   const Scene& scene_;
-  const Law& law_;
   const std::vector<double>& positions_;
   Scheme scheme_;
-  double dt_, h_;
-  std::size_t per_cell_, cells_;
-  double particle_mass_;
-  std::size_t first_cell_, grid_cells_;  // the bar starts in first_cell_; moving bars have room on their free sides
+  double dt_, h_, c_max_;
+  std::size_t per_cell_;
+  std::vector<Member> members_;
+  std::size_t first_cell_ = 0, grid_cells_ = 0;  // the first bar starts in first_cell_
 
   std::vector<Node> node_;
   std::vector<std::size_t> cell_start_;  // particles of cell c are [cell_start_[c], cell_start_[c+1])
-  // Particles, in the order of the bar and hence of the cells:
+  // Particles, in the order of the bars and hence of the cells:
   std::vector<double> offset_, velocity_, displacement_;
   std::vector<typename Law::State> state_;
-  std::vector<std::int32_t> cell_;        // only where particles move
-  std::vector<double> length_, advance_;  // likewise
-  std::vector<double> body_;              // per node, only with a body force
-  std::vector<NodalForce> nodal_forces_;  // of the current step
+  std::vector<std::int32_t> cell_;         // only where several bars stand in the grid, or particles move
+  std::vector<double> mass_;               // likewise
+  std::vector<double> stretch_, advance_;  // only where particles move
+  std::vector<double> q_;                  // only with viscosity
+  std::vector<double> body_;               // per node, only with a body force
+  std::vector<NodalForce> nodal_forces_;   // of the current step
   std::vector<std::vector<LayerPoint>> layers_;
+  std::vector<Touch> touches_;
+  double half_work_ = 0, half_work_of_kick_ = 0;  // for the books
   std::string trouble_;
 };
 
+/// Courant number up to which a bar with these natural coordinates in every cell is stable.
 double courant_limit(const std::vector<double>& positions, Scheme scheme, bool convected) {
   const auto count = static_cast<double>(positions.size());
   double mean = 0, filter = 0;
@@ -500,20 +689,47 @@ double courant_limit(const std::vector<double>& positions, Scheme scheme, bool c
 }  // namespace
 
 double critical_time_step(const Scene& scene, int cells, const std::vector<double>& positions, Scheme scheme) {
-  return courant_limit(positions, scheme, scene.convected) * scene.length / cells /
-         material::wave_speed(scene.material);
+  const double h = scene.bars[0].length / cells, fastest = largest_wave_speed(scene);
+  const double jump = initial_velocity_jump(scene);
+  double least = std::numeric_limits<double>::infinity();
+  for (const Bar& bar : scene.bars) {
+    const double speed = material::wave_speed(bar.material), begin = (bar.begin - scene.begin()) / h;
+    const double shift = std::abs(begin - std::round(begin)) < 1e-9 ? 0 : begin - std::floor(begin);
+    std::vector<double> there;
+    for (const double xi : positions) there.push_back(xi + shift > 1 ? xi + shift - 1 : xi + shift);
+    double courant = courant_limit(there, scheme, scene.convected);
+    if (scene.viscosity) {
+      const bool york = scene.viscosity->form == material::Viscosity::Form::york;
+      courant = with_viscosity(courant, scene.viscosity->strength(speed, jump) * (york ? fastest / speed : 1));
+    }
+    least = std::min(least, courant * h / speed);
+  }
+  return least;
 }
 
 Record run(const Scene& scene, int cells, const std::vector<double>& positions, Scheme scheme,
            const Stepping& stepping) {
   if (cells < 1 || positions.empty()) throw std::invalid_argument("mpm needs at least one cell and one particle");
-  const auto go = [&](const auto& law, auto moving) {
-    Bar<std::decay_t<decltype(law)>, decltype(moving)::value> bar(scene, law, cells, positions, scheme, stepping);
-    return take_steps(bar, stepping);
+  for (std::size_t b = 1; b < scene.bars.size(); ++b) {
+    const double size = scene.bars[b].length / (scene.bars[0].length / cells);
+    if (std::abs(size - cells_of(scene, b, cells)) > 1e-9 * size)
+      throw std::invalid_argument("mpm: bar " + std::to_string(b + 1) + " is not a whole number of cells long");
+  }
+  const auto go = [&]<Carries carries, bool viscous>(const auto& laws) {
+    using Law = typename std::decay_t<decltype(laws)>::value_type;
+    Bars<Law, carries, viscous> bars(scene, laws, cells, positions, scheme, stepping);
+    return take_steps(bars, stepping);
+  };
+  const auto with = [&]<Carries carries>(const auto& laws) {
+    return scene.viscosity ? go.template operator()<carries, true>(laws) : go.template operator()<carries, false>(laws);
   };
   return std::visit(
-      [&](const auto& law) { return scene.convected ? go(law, std::true_type{}) : go(law, std::false_type{}); },
-      scene.material);
+      [&](const auto& laws) {
+        if (scene.convected) return with.template operator()<Carries::stretch>(laws);
+        if (scene.bars.size() > 1) return with.template operator()<Carries::cell>(laws);
+        return with.template operator()<Carries::nothing>(laws);
+      },
+      laws(scene));
 }
 
 }  // namespace diptych::mpm

@@ -41,6 +41,10 @@ constexpr double width = 900, left = 88, right = 24, column_gap = 36, row_gap = 
 constexpr double margin = 14, title_line = 24, note_line = 15, legend_line = 20, x_axis = 46;
 constexpr double label_line = 16, label_char = 7.0, note_char = 6.2, title_char = 9.4;  // generous for a sans face
 constexpr double marker_spacing = 7.5;                         // closer markers melt into a band
+constexpr double motion_height = 450, motion_spacing = 22;     // of panels and of markers along a path
+constexpr double ticks_across = 62, ticks_down = 34;           // gaps between panels with tick labels of their own
+constexpr double axis_across = 90, axis_down = 62;             // and with axis labels of their own
+constexpr double y_label_offset = 72;                          // from a panel's left side
 constexpr double sample = 34, sample_gap = 7, entry_gap = 26;  // of the legend
 
 /// How a series looks. Colours after Okabe & Ito; shapes differ too, for print without colour.
@@ -67,9 +71,10 @@ Look look(const std::string& kind, std::size_t nth) {
 struct Entry {
   std::string label, kind;
   Look appearance;
-  std::size_t interval = 1;  ///< a marker at every so many points
-  double x = 0;              ///< of its sample in the legend [px]
-  std::size_t line = 0;      ///< of the legend
+  std::size_t interval = 1;  ///< a marker at every so many points; in a motion diagram the most of all panels
+  bool motion = false;
+  double x = 0;          ///< of its sample in the legend [px]
+  std::size_t line = 0;  ///< of the legend
   std::string text() const;
 };
 
@@ -85,10 +90,25 @@ struct Heading {
   }
 };
 
+/// What the axes of a panel show.
+struct Frame {
+  double x_min = 0, x_max = 1, y_min = 0, y_max = 1;
+  bool operator==(const Frame&) const = default;
+};
+
+/// What some panel has of its own: each must then show its own ticks, or its own axis labels with them.
+struct Own {
+  bool x_range = false, y_range = false, x_label = false, y_label = false;
+  bool any_range() const { return x_range || y_range; }
+  bool x_ticks() const { return x_range || x_label; }
+  bool y_ticks() const { return y_range || y_label; }
+};
+
 struct Layout {
   std::size_t columns = 1, rows = 1;
-  double panel_width = 0, panel_height = 0, legend = 0, top = 0, height = 0;
-  double y_max = 0;                              ///< of the axis, with room for the labels where data leave none
+  double panel_width = 0, panel_height = 0, row_gap = 0, legend = 0, top = 0, height = 0;
+  Own own;
+  std::vector<Frame> frames;                     ///< y_max with room for the labels where data leave none
   std::vector<std::vector<std::string>> labels;  ///< lines of each panel's label
   std::vector<Box> places;
 };
@@ -133,25 +153,88 @@ bool drawable(const Figure::Series& series) {
   return false;
 }
 
+Frame frame_of(const Figure& figure, const Figure::Panel& panel) {
+  const auto x = panel.x_range.value_or(std::array{figure.x_min, figure.x_max});
+  const auto y = panel.y_range.value_or(std::array{figure.y_min, figure.y_max});
+  return {x[0], x[1], y[0], y[1]};
+}
+
+Own own_of(const Figure& figure) {
+  Own own;
+  for (const Figure::Panel& panel : figure.panels) {
+    own.x_range |= panel.x_range.has_value();
+    own.y_range |= panel.y_range.has_value();
+    own.x_label |= !panel.x_label.empty();
+    own.y_label |= !panel.y_label.empty();
+  }
+  return own;
+}
+
+/// How much of a curve lies inside a frame.
+struct Seen {
+  bool any = false;
+  double steps = 0;               ///< from point to point, with the share of those cut by the frame's edge
+  double across = 0, length = 0;  ///< of these steps: along x and along the curve [px]
+};
+
+Seen seen(const Curve& curve, const Frame& frame, double panel_width, double panel_height) {
+  Seen total;
+  const double x_scale = panel_width / (frame.x_max - frame.x_min);
+  const double y_scale = panel_height / (frame.y_max - frame.y_min);
+  const auto finite = [&](std::size_t i) { return std::isfinite(curve.x[i]) && std::isfinite(curve.y[i]); };
+  for (std::size_t i = 0; i < curve.x.size(); ++i) {
+    if (!finite(i)) continue;
+    const std::size_t from = i > 0 && finite(i - 1) ? i - 1 : i;
+    const double dx = curve.x[i] - curve.x[from], dy = curve.y[i] - curve.y[from];
+    double enter = 0, leave = 1;  // shares of the step; Liang and Barsky (1984)
+    const auto clip = [&](double start, double step, double low, double high) {
+      if (step == 0) {
+        if (start < low || start > high) leave = -1;
+        return;
+      }
+      const double to_low = (low - start) / step, to_high = (high - start) / step;
+      enter = std::max(enter, std::min(to_low, to_high));
+      leave = std::min(leave, std::max(to_low, to_high));
+    };
+    clip(curve.x[from], dx, frame.x_min, frame.x_max);
+    clip(curve.y[from], dy, frame.y_min, frame.y_max);
+    if (leave < enter) continue;
+    total.any = true;
+    if (from == i) continue;
+    total.steps += leave - enter;
+    total.across += (leave - enter) * std::abs(dx) * x_scale;
+    total.length += (leave - enter) * std::hypot(dx * x_scale, dy * y_scale);
+  }
+  return total;
+}
+
 /// Label of the panel, and which series it cannot show: a lost one must not look like a hidden one.
-std::string label_of(const Figure::Panel& panel) {
-  std::string missing;
-  for (const Figure::Series& series : panel.series)
-    if (!drawable(series)) missing += (missing.empty() ? "" : ", ") + series.label;
-  return missing.empty() ? panel.label : panel.label + " [no finite values: " + missing + "]";
+std::string label_of(const Figure& figure, const Figure::Panel& panel) {
+  const bool magnified = panel.x_range || panel.y_range;
+  std::string missing, outside;
+  for (const Figure::Series& series : panel.series) {
+    if (!drawable(series))
+      missing += (missing.empty() ? "" : ", ") + series.label;
+    else if (magnified && !seen(series.curve, frame_of(figure, panel), 1, 1).any)
+      outside += (outside.empty() ? "" : ", ") + series.label;
+  }
+  std::string label = panel.label;
+  if (!missing.empty()) label += " [no finite values: " + missing + "]";
+  if (!outside.empty()) label += " [outside the axes: " + outside + "]";
+  return label;
 }
 
 /// Whether any curve of the panel passes through the box.
-bool crossed(const Figure& figure, const Figure::Panel& panel, const Layout& layout, const Box& box) {
+bool crossed(const Figure::Panel& panel, const Frame& frame, const Layout& layout, const Box& box) {
   constexpr double clearance = 5;
-  const double x_scale = layout.panel_width / (figure.x_max - figure.x_min);
-  const double y_scale = layout.panel_height / (layout.y_max - figure.y_min);
+  const double x_scale = layout.panel_width / (frame.x_max - frame.x_min);
+  const double y_scale = layout.panel_height / (frame.y_max - frame.y_min);
   for (const Figure::Series& series : panel.series) {
     double last_x = 0, last_y = 0;
     bool has_last = false;
     for (std::size_t i = 0; i < series.curve.x.size(); ++i) {
-      const double x = (series.curve.x[i] - figure.x_min) * x_scale;
-      const double y = (layout.y_max - series.curve.y[i]) * y_scale;
+      const double x = (series.curve.x[i] - frame.x_min) * x_scale;
+      const double y = (frame.y_max - series.curve.y[i]) * y_scale;
       const bool good = std::isfinite(x) && std::isfinite(y);
       if (good) {
         const double reach = has_last ? std::max(std::abs(x - last_x), std::abs(y - last_y)) : 0;
@@ -183,7 +266,7 @@ bool place_labels(const Figure& figure, Layout& layout) {
     for (const double y : {6.0, far_y})
       for (const double x : {10.0, far_x, far_x / 2}) {
         const Box box{x, y, w, h};
-        if (found || crossed(figure, figure.panels[i], layout, box)) continue;
+        if (found || crossed(figure.panels[i], layout.frames[i], layout, box)) continue;
         layout.places.push_back(box);
         found = true;
       }
@@ -192,45 +275,90 @@ bool place_labels(const Figure& figure, Layout& layout) {
   return true;
 }
 
-std::size_t columns_for(const Figure& figure) { return figure.panels.size() > 4 ? 2 : 1; }
+std::size_t columns_for(const Figure& figure) {
+  const std::size_t count = figure.panels.size();
+  return count > 4 || (figure.motion && count > 1) ? 2 : 1;
+}
 
-double panel_width(std::size_t columns) {
-  const auto count = static_cast<double>(columns);
-  return (width - left - right - (count - 1) * column_gap) / count;
+double gap_across(const Own& own) { return own.y_label ? axis_across : own.y_ticks() ? ticks_across : column_gap; }
+double gap_down(const Own& own) { return own.x_label ? axis_down : own.x_ticks() ? ticks_down : row_gap; }
+
+double panel_width(const Figure& figure) {
+  const auto count = static_cast<double>(columns_for(figure));
+  return (width - left - right - (count - 1) * gap_across(own_of(figure))) / count;
 }
 
 Layout layout_of(const Figure& figure, const Heading& heading, std::size_t legend_lines) {
   Layout layout;
   const std::size_t count = figure.panels.size();
+  layout.own = own_of(figure);
   layout.columns = columns_for(figure);
   layout.rows = (count + layout.columns - 1) / layout.columns;
   const auto rows = static_cast<double>(layout.rows);
-  layout.panel_width = panel_width(layout.columns);
-  layout.panel_height = count == 1 ? 360 : count == 2 ? 230 : layout.columns == 2 ? 165 : 175;
+  layout.panel_width = panel_width(figure);
+  layout.panel_height = figure.motion         ? motion_height
+                        : count == 1          ? 360
+                        : count == 2          ? 230
+                        : layout.columns == 2 ? 165
+                                              : 175;
+  layout.row_gap = gap_down(layout.own);
   layout.legend = margin + heading.height() + 6;
   layout.top = layout.legend + legend_line * static_cast<double>(legend_lines) + 8;
-  layout.y_max = figure.y_max;
   std::size_t most = 1;
   for (const Figure::Panel& panel : figure.panels) {
-    layout.labels.push_back(lines_of(label_of(panel), layout.panel_width - 24, label_char));
+    layout.frames.push_back(frame_of(figure, panel));
+    layout.labels.push_back(
+        lines_of(label_of(figure, panel), layout.panel_width - (figure.motion ? 0 : 24), label_char));
     most = std::max(most, layout.labels.back().size());
   }
-  if (!place_labels(figure, layout)) {
-    // Data fill some panel: lift the axis of all, so that labels have a strip of their own above y_max.
-    const double strip = label_line * static_cast<double>(most) + 8;
-    layout.y_max = figure.y_max + (figure.y_max - figure.y_min) * strip / layout.panel_height;
-    layout.panel_height += strip;
+  const double strip = label_line * static_cast<double>(most) + 8;
+  const auto in_strip = [&](double x, double y) {
     layout.places.clear();
     for (const auto& lines : layout.labels)
-      layout.places.push_back({10, 4, length_of(lines), label_line * static_cast<double>(lines.size())});
+      layout.places.push_back({x, y, length_of(lines), label_line * static_cast<double>(lines.size())});
+  };
+  if (figure.motion) {
+    // Paths go everywhere and time must not seem to go on: labels stand above the panels.
+    layout.top += strip;
+    layout.row_gap += strip;
+    in_strip(0, 2 - strip);
+  } else if (!place_labels(figure, layout)) {
+    // Data fill some panel: lift the axis of all, so that labels have a strip of their own above y_max.
+    for (Frame& frame : layout.frames) frame.y_max += (frame.y_max - frame.y_min) * strip / layout.panel_height;
+    layout.panel_height += strip;
+    in_strip(10, 4);
   }
-  layout.height = layout.top + rows * layout.panel_height + (rows - 1) * row_gap + x_axis;
+  layout.height = layout.top + rows * layout.panel_height + (rows - 1) * layout.row_gap + x_axis;
   return layout;
+}
+
+bool broken(const Curve& curve) {
+  for (std::size_t i = 0; i < curve.x.size(); ++i)
+    if (!std::isfinite(curve.x[i]) || !std::isfinite(curve.y[i])) return true;
+  return false;
+}
+
+/// How many points to go from marker to marker, so that they do not melt into a band.
+std::size_t interval_of(const Figure& figure, const Figure::Panel& panel, const Curve& curve) {
+  const double across = panel_width(figure);
+  auto steps = static_cast<double>(curve.x.size());
+  double room = across, tolerance = 0;
+  if (figure.motion || panel.x_range || panel.y_range || broken(curve)) {
+    const Seen part = seen(curve, frame_of(figure, panel), across, motion_height);
+    steps = part.steps;
+    room = figure.motion ? part.length : part.across;
+    tolerance = 0.1;  // a bar shortened by its strain does not lose half its markers
+  }
+  if (!(room > 0)) return 1;
+  const double asked = std::ceil(steps * (figure.motion ? motion_spacing : marker_spacing) / room - tolerance);
+  auto interval = static_cast<std::size_t>(std::clamp(asked, 1.0, 1.0 + static_cast<double>(curve.x.size())));
+  // Odd, so that markers do not always land on the same one of two particles in a cell.
+  if (!figure.motion && interval > 1 && interval % 2 == 0) ++interval;
+  return interval;
 }
 
 /// Legend entries in the order of first mention. Lines lie under markers because the series come in that order.
 std::vector<Entry> entries_of(const Figure& figure) {
-  const double across = panel_width(columns_for(figure));
   std::vector<Entry> entries;
   for (const Figure::Panel& panel : figure.panels)
     for (const Figure::Series& series : panel.series) {
@@ -241,13 +369,10 @@ std::vector<Entry> entries_of(const Figure& figure) {
             std::count_if(entries.begin(), entries.end(), [&](const Entry& e) { return e.kind == series.kind; });
         entries.push_back({series.label, series.kind, look(series.kind, static_cast<std::size_t>(nth))});
         entry = std::prev(entries.end());
+        entry->motion = figure.motion;
       }
-      if (!entry->appearance.markers) continue;
-      auto interval =
-          static_cast<std::size_t>(std::ceil(static_cast<double>(series.curve.x.size()) * marker_spacing / across));
-      // Odd, so that markers do not always land on the same one of two particles in a cell.
-      if (interval > 1 && interval % 2 == 0) ++interval;
-      entry->interval = std::max(entry->interval, interval);
+      if (entry->appearance.markers)
+        entry->interval = std::max(entry->interval, interval_of(figure, panel, series.curve));
     }
   double x = left;
   std::size_t line = 0;
@@ -280,11 +405,13 @@ std::string ordinal(std::size_t n) {
 }
 
 std::string Entry::text() const {
-  return interval > 1 ? label + " (marker at every " + ordinal(interval) + " point)" : label;
+  if (interval <= 1) return label;
+  return motion ? label + " (markers at some points)" : label + " (marker at every " + ordinal(interval) + " point)";
 }
 
 const char* style_of(const Entry& entry) {
-  return !entry.appearance.markers ? "lines" : entry.interval > 1 ? "linespoints" : "points";
+  if (!entry.appearance.markers) return "lines";
+  return entry.interval > 1 || entry.motion ? "linespoints" : "points";
 }
 
 /// Margins that put a plot between these pixels, counted from the upper left corner.
@@ -316,11 +443,12 @@ void write_head(Gnuplot& gp, const Figure& figure, const Heading& heading, const
     std::string style = entry.appearance.line;
     // Markers joined by a line: a thin one, which leaves what lies beneath in sight.
     if (entry.appearance.markers)
-      style += entry.interval > 1 ? fmt::format(" lw 0.9 pi {}", entry.interval) : " lw 1.3";
+      style += entry.motion ? " lw 0.9" : entry.interval > 1 ? fmt::format(" lw 0.9 pi {}", entry.interval) : " lw 1.3";
     gp << "set style line " << i + 1 << ' ' << style << "  # " << quoted(entry.label) << '\n';
   }
   gp << "set style line 100 lw 0.7 lc rgb '#e4e4e4'  # grid\n"
      << "set style line 101 lw 0.9 lc rgb '#707070'  # axes\n\n"
+     << (layout.own.any_range() ? "set clip two  # a line may cross a panel without a point in it\n\n" : "")
      << "set multiplot\n\n"
      << "# Title, notes, legend and axis labels: an empty plot across the page.\n"
      << at_pixels(left, width - right, layout.legend, layout.top, layout.height)
@@ -338,8 +466,9 @@ void write_head(Gnuplot& gp, const Figure& figure, const Heading& heading, const
     text(line, left, y + 5, "left font ',11' textcolor rgb '#666666'");
     y += note_line;
   }
-  text(figure.y_label, 16, (layout.top + layout.height - x_axis) / 2,
-       "center rotate by 90 font ',12' textcolor rgb '#222222'");
+  if (!layout.own.y_label)
+    text(figure.y_label, 16, (layout.top + layout.height - x_axis) / 2,
+         "center rotate by 90 font ',12' textcolor rgb '#222222'");
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const Entry& entry = entries[i];
     const double middle = layout.legend + legend_line * (static_cast<double>(entry.line) + 0.5);
@@ -354,13 +483,81 @@ void write_head(Gnuplot& gp, const Figure& figure, const Heading& heading, const
   gp << "plot [0:1] [0:1] NaN notitle\nunset label; unset arrow\n\n";
 }
 
+/// Frames the parts that other panels magnify.
+void write_magnified(Gnuplot& gp, const Layout& layout, std::size_t index) {
+  const Frame& outer = layout.frames[index];
+  for (const Frame& inner : layout.frames) {
+    const bool inside = inner.x_min >= outer.x_min && inner.x_max <= outer.x_max && inner.y_min >= outer.y_min &&
+                        inner.y_max <= outer.y_max;
+    if (inside && inner != outer)
+      gp << fmt::format("set object rectangle from {},{} to {},{} front fillstyle empty border rgb '#111111' lw 1.1\n",
+                        inner.x_min, inner.y_min, inner.x_max, inner.y_max);
+  }
+}
+
+/// One element of a plot command: a series, or only its marked points.
+struct Element {
+  const Figure::Series* series = nullptr;
+  const char* style = "lines";
+  std::size_t look = 0;      ///< number of the line style
+  std::size_t interval = 0;  ///< a point is written every so many from the start of each line; 0: the whole curve
+  int layer = 0;             ///< in a motion diagram
+  std::size_t first = 0;     ///< the first point written of each line
+};
+
+std::vector<Element> elements_of(const Figure& figure, const Figure::Panel& panel, const std::vector<Entry>& entries) {
+  std::vector<Element> elements;
+  for (const Figure::Series& series : panel.series) {
+    if (!drawable(series)) continue;
+    const auto entry = std::find_if(entries.begin(), entries.end(),
+                                    [&](const Entry& e) { return e.label == series.label && e.kind == series.kind; });
+    const auto look = static_cast<std::size_t>(entry - entries.begin()) + 1;
+    const char* style = style_of(*entry);
+    if (figure.motion && entry->appearance.markers) {
+      // Markers of several methods take turns, or the last would hide the others where they agree.
+      const auto marked = [](const Entry& e) { return e.appearance.markers; };
+      const auto turns = static_cast<std::size_t>(std::count_if(entries.begin(), entries.end(), marked));
+      const auto turn = static_cast<std::size_t>(std::count_if(entries.begin(), entry, marked));
+      const std::size_t interval = interval_of(figure, panel, series.curve);
+      elements.push_back({&series, "lines", look, 0, 1});
+      elements.push_back({&series, "points", look, interval, 3, interval * turn / turns});
+    } else if (style == std::string_view("linespoints") && broken(series.curve)) {
+      // gnuplot counts from marker to marker through the breaks: a line would begin anywhere between two.
+      elements.push_back({&series, "lines", look});
+      elements.push_back({&series, "points", look, entry->interval});
+    } else {
+      elements.push_back({&series, style, look, 0, series.kind == "exact" ? 0 : 2});
+    }
+  }
+  // Paths of methods that agree lie on each other: markers above, the lines between them below all but the exact one.
+  if (figure.motion)
+    std::stable_sort(elements.begin(), elements.end(),
+                     [](const Element& a, const Element& b) { return a.layer < b.layer; });
+  return elements;
+}
+
+/// What gnuplot is to read: the rows of NaN break a line.
+std::vector<std::pair<double, double>> points_of(const Element& element) {
+  const Curve& curve = element.series->curve;
+  std::vector<std::pair<double, double>> points;
+  std::size_t since_start = 0;
+  for (std::size_t i = 0; i < curve.x.size(); ++i) {
+    const bool gap = !std::isfinite(curve.x[i]) || !std::isfinite(curve.y[i]);
+    if (element.interval == 0 || (!gap && since_start % element.interval == element.first))
+      points.emplace_back(curve.x[i], curve.y[i]);
+    since_start = gap ? 0 : since_start + 1;
+  }
+  return points;
+}
+
 void write_panel(Gnuplot& gp, const Figure& figure, std::size_t index, const Layout& layout,
                  const std::vector<Entry>& entries) {
   const Figure::Panel& panel = figure.panels[index];
   const std::size_t row = index / layout.columns, column = index % layout.columns;
-  const double x0 = left + static_cast<double>(column) * (layout.panel_width + column_gap);
-  const double y0 = layout.top + static_cast<double>(row) * (layout.panel_height + row_gap);
+  const double x0 = left + static_cast<double>(column) * (layout.panel_width + gap_across(layout.own));
+  const double y0 = layout.top + static_cast<double>(row) * (layout.panel_height + layout.row_gap);
   const bool lowest = index + layout.columns >= figure.panels.size();
+  const Frame& frame = layout.frames[index];
 
   gp << "# Panel " << index + 1 << '\n'
      << at_pixels(x0, x0 + layout.panel_width, y0, y0 + layout.panel_height, layout.height);
@@ -368,14 +565,27 @@ void write_panel(Gnuplot& gp, const Figure& figure, std::size_t index, const Lay
     gp << "set border 3 back ls 101\n"
        << "set grid back ls 100\n"
        << "set xtics nomirror out scale 0.5 offset 0,0.4 font ',11' textcolor rgb '#333333'\n"
-       << "set ytics nomirror out scale 0.5 font ',11' textcolor rgb '#333333'\n"
-       << fmt::format("set xrange [{}:{}]; set yrange [{}:{}]\n", figure.x_min, figure.x_max, figure.y_min,
-                      layout.y_max);
-  gp << "set format x " << (lowest ? "'%g'" : "''") << "; set format y " << (column == 0 ? "'%g'" : "''") << '\n';
-  if (lowest)
-    gp << "set label " << quoted(figure.x_label)
+       << "set ytics nomirror out scale 0.5 font ',11' textcolor rgb '#333333'\n";
+  if (index == 0 || layout.own.any_range())
+    gp << fmt::format("set xrange [{}:{}]; set yrange [{}:{}]\n", frame.x_min, frame.x_max, frame.y_min, frame.y_max);
+  gp << "set format x " << (lowest || layout.own.x_ticks() ? "'%g'" : "''") << "; set format y "
+     << (column == 0 || layout.own.y_ticks() ? "'%g'" : "''") << '\n';
+  if (layout.own.y_label) {
+    const std::vector<std::string> lines =
+        lines_of(panel.y_label.empty() ? figure.y_label : panel.y_label, layout.panel_height, label_char);
+    for (std::size_t i = 0; i < lines.size(); ++i)
+      gp << "set label " << quoted(lines[i])
+         << fmt::format(" at screen {:.6f},{:.6f} center rotate by 90 font ',12' textcolor rgb '#222222'\n",
+                        (x0 - y_label_offset +
+                         label_line * (static_cast<double>(i) - static_cast<double>(lines.size() - 1) / 2)) /
+                            width,
+                        1 - (y0 + layout.panel_height / 2) / layout.height);
+  }
+  if (lowest || layout.own.x_label)
+    gp << "set label " << quoted(panel.x_label.empty() ? figure.x_label : panel.x_label)
        << fmt::format(" at screen {:.6f},{:.6f} center font ',12' textcolor rgb '#222222'\n",
                       (x0 + layout.panel_width / 2) / width, 1 - (y0 + layout.panel_height + 34) / layout.height);
+  if (figure.motion) write_magnified(gp, layout, index);
   const Box& place = layout.places[index];
   const bool to_right = place.x > layout.panel_width / 2 - place.w / 2 + 1;
   for (std::size_t i = 0; i < layout.labels[index].size(); ++i)
@@ -385,25 +595,14 @@ void write_panel(Gnuplot& gp, const Figure& figure, std::size_t index, const Lay
                       1 - (y0 + place.y + label_line * (static_cast<double>(i) + 0.5)) / layout.height,
                       to_right ? "right" : "left");
 
-  std::vector<const Figure::Series*> shown;
-  for (const Figure::Series& series : panel.series)
-    if (drawable(series)) shown.push_back(&series);
+  const std::vector<Element> elements = elements_of(figure, panel, entries);
   gp << "plot ";
-  if (shown.empty()) gp << "NaN notitle";
-  for (std::size_t i = 0; i < shown.size(); ++i) {
-    const auto entry = std::find_if(entries.begin(), entries.end(), [&](const Entry& e) {
-      return e.label == shown[i]->label && e.kind == shown[i]->kind;
-    });
-    gp << (i == 0 ? "" : ", ") << "'-' with " << style_of(*entry) << " ls " << entry - entries.begin() + 1;
-  }
+  if (elements.empty()) gp << "NaN notitle";
+  for (std::size_t i = 0; i < elements.size(); ++i)
+    gp << (i == 0 ? "" : ", ") << "'-' with " << elements[i].style << " ls " << elements[i].look;
   gp << '\n';
-  for (const Figure::Series* series : shown) {
-    std::vector<std::pair<double, double>> points;
-    for (std::size_t i = 0; i < series->curve.x.size(); ++i)
-      points.emplace_back(series->curve.x[i], series->curve.y[i]);
-    gp.send1d(points);
-  }
-  gp << "unset label\n\n";
+  for (const Element& element : elements) gp.send1d(points_of(element));
+  gp << "unset label" << (figure.motion ? "; unset object" : "") << "\n\n";
 }
 
 std::string contents(const fs::path& path) {
@@ -470,7 +669,15 @@ std::string csv_of(const Figure& figure) {
   const auto number = [](double v) { return std::isnan(v) ? std::string("nan") : fmt::format("{}", v); };
   std::string out = meta("figure", figure.id) + meta("title", figure.title);
   for (const std::string& note : figure.notes) out += meta("note", note);
-  out += meta("x", figure.x_label) + meta("y", figure.y_label) + "panel,series,x,y\n";
+  out += meta("x", figure.x_label) + meta("y", figure.y_label);
+  bool breaks = false;
+  for (const Figure::Panel& panel : figure.panels) {
+    if (!panel.x_label.empty()) out += meta("x of panel '" + panel.label + "'", panel.x_label);
+    if (!panel.y_label.empty()) out += meta("y of panel '" + panel.label + "'", panel.y_label);
+    for (const Figure::Series& series : panel.series) breaks = breaks || broken(series.curve);
+  }
+  if (breaks) out += "# nan: a line ends here; the next row begins a new one\n";
+  out += "panel,series,x,y\n";
   for (const Figure::Panel& panel : figure.panels)
     for (const Figure::Series& series : panel.series) {
       const std::string start = csv_field(panel.label) + "," + csv_field(series.label) + ",";
@@ -555,17 +762,20 @@ void check(const Figure& figure) {
       figure.id.find_first_not_of(allowed) != std::string::npos)
     refuse("an id names files: letters, digits, '_', '-' and '.', starting with a letter, digit or '_'");
   if (figure.panels.empty()) refuse("no panels");
-  const auto range = [&](double low, double high, const char* axis) {
+  const auto range = [&](double low, double high, const std::string& axis) {
     if (!std::isfinite(low) || !std::isfinite(high) || !(low < high))
       refuse(fmt::format("{} from {} to {} is no range", axis, low, high));
   };
   range(figure.x_min, figure.x_max, "x");
   range(figure.y_min, figure.y_max, "y");
-  for (const Figure::Panel& panel : figure.panels)
+  for (const Figure::Panel& panel : figure.panels) {
+    if (panel.x_range) range((*panel.x_range)[0], (*panel.x_range)[1], "panel '" + panel.label + "', x");
+    if (panel.y_range) range((*panel.y_range)[0], (*panel.y_range)[1], "panel '" + panel.label + "', y");
     for (const Figure::Series& series : panel.series)
       if (series.curve.x.size() != series.curve.y.size())
         refuse(fmt::format("panel '{}', series '{}': {} x but {} y", panel.label, series.label, series.curve.x.size(),
                            series.curve.y.size()));
+  }
 }
 
 }  // namespace

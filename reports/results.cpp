@@ -49,7 +49,8 @@ double room(const Check& check) {
 
 std::string Run::label() const {
   std::string text = fmt::format("{} N={} C={}", method, cells, courant_asked);
-  if (particles.empty()) return text;
+  const std::string swept = parameters.empty() ? "" : " " + parameters;
+  if (particles.empty()) return text + swept;
   const std::vector<double> positions = numbers(particles);
   text += fmt::format(" ppc={}", positions.size());
   const double count = static_cast<double>(positions.size());
@@ -57,7 +58,7 @@ std::string Run::label() const {
   for (std::size_t i = 0; i < positions.size(); ++i)
     even = even && std::abs(positions[i] - (static_cast<double>(i) + 0.5) / count) < 1e-12;
   if (!even) text += fmt::format("@{}", fmt::join(positions, ","));
-  return text;
+  return text + swept;
 }
 
 std::string to_string(Verdict verdict) {

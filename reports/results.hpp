@@ -2,6 +2,7 @@
 // knows nothing of solvers.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -43,7 +44,7 @@ struct Sample {
 
 /// One line of a run's energy and momentum ledger, in case units; the fields are those of the solvers' books.
 struct LedgerLine {
-  double time, kinetic, strain, dissipated, work, lost, momentum, impulse;
+  double time, kinetic, strain, dissipated, viscous, contact, scheme, work, lost, momentum, impulse;
 };
 
 struct Run {
@@ -52,6 +53,7 @@ struct Run {
   int cells = 0;
   double courant_asked = 0, courant = 0;      ///< C = cΔt/h as asked and as used
   std::string particles;                      ///< positions in the cell as in the case file, "" for FEM
+  std::string parameters;                     ///< swept parameters, "v0=0.1"; "" without
   std::string status;                         ///< "completed", "unstable", "refused", "left-grid", "cancelled", "error"
   std::string message;                        ///< why, where not completed
   double cell_size = 0;                       ///< h [case units]
@@ -67,7 +69,11 @@ struct Run {
   std::map<std::string, double> measures;  ///< per-run quantities: "energy.drift", "momentum.drift", "bits.mirror", ...
   std::vector<Sample> samples;
   std::vector<LedgerLine> ledger;  ///< every step, filled only where it is asked for
-  /// "mpm-musl N=200 C=0.5 ppc=1"; particles that are not evenly spaced add their positions, "ppc=1@0.3".
+  /// Paths of ends and of points between, NaN between two paths: x the place, y the time (filled where a figure asks).
+  Curve paths, exact_paths;
+  std::vector<double> path_origins;  ///< of each point of both: where it started
+  /// "mpm-musl N=200 C=0.5 ppc=1"; particles that are not evenly spaced add their positions, "ppc=1@0.3", and swept
+  /// parameters theirs, "v0=0.1".
   std::string label() const;
 };
 
@@ -100,13 +106,19 @@ struct Gate {
   double headroom() const;
 };
 
-/// A figure to draw: stacked panels, one per time, with the exact solution under both methods.
+/// A figure to draw: stacked panels, one per time, with the exact solution under both methods; or a motion diagram.
+/// A point that holds NaN ends its line and the next point begins a new one: a curve may hold two bars with a gap
+/// between them, or the paths of many particles. Series are drawn in their order, the first lies lowest.
 struct Figure {
   std::string id;  ///< "fig1": names the files
   std::string title;
   std::vector<std::string> notes;  ///< lines under the title: parameters, what is our choice
   std::string x_label, y_label;
   double x_min = 0, x_max = 1, y_min = -1, y_max = 1;
+  /// Position across, time upwards: tall panels, two side by side; labels above them; markers far apart, at equal steps
+  /// from the start of each path, above all lines, and exact paths below all; a panel that magnifies a part of another
+  /// is framed there.
+  bool motion = false;
   struct Series {
     std::string label;
     std::string kind;  ///< "exact", "fem", "mpm"
@@ -115,6 +127,8 @@ struct Figure {
   struct Panel {
     std::string label;  ///< "t = 0.5 L/c: ..."
     std::vector<Series> series;
+    std::optional<std::array<double, 2>> x_range = {}, y_range = {};  ///< from, to; none: the figure's
+    std::string x_label = {}, y_label = {};                           ///< empty: the figure's
   };
   std::vector<Panel> panels;
 };

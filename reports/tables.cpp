@@ -39,6 +39,7 @@ std::vector<Group> groups(const Case& data) {
   for (const Run& run : data.runs) {
     const auto same = [&](const Group& g) {
       return g.first().method == run.method && g.first().particles == run.particles &&
+             g.first().parameters == run.parameters &&
              g.first().courant_asked == run.courant_asked;
     };
     const auto place = std::find_if(found.begin(), found.end(), same);
@@ -163,7 +164,8 @@ struct Grid {
 std::string group_title(const Group& group) {
   const Run& run = group.first();
   const std::string particles = run.particles.empty() ? "" : ", particles at " + run.particles + " in the cell";
-  return fmt::format("{}{}, Courant number {} asked", run.method, particles, run.courant_asked);
+  const std::string swept = run.parameters.empty() ? "" : ", " + run.parameters;
+  return fmt::format("{}{}{}, Courant number {} asked", run.method, particles, swept, run.courant_asked);
 }
 
 Grid cost_grid(const Case& data, const Group& group) {
@@ -530,6 +532,7 @@ std::string csv_table(const Case& data) {
   std::string out = csv_line({"case",
                               "method",
                               "particles",
+                              "parameters",
                               "cells",
                               "h " + length,
                               "unknowns",
@@ -574,6 +577,7 @@ std::string csv_table(const Case& data) {
       const std::vector<std::string> about{data.id,
                                            run->method,
                                            run->particles,
+                                           run->parameters,
                                            fmt::to_string(run->cells),
                                            exact(run->cell_size),
                                            fmt::to_string(run->unknowns),
@@ -619,10 +623,10 @@ std::string csv_table(const Case& data) {
 }
 
 std::string ledger_csv(const Run& run) {
-  std::string out = "time,kinetic,strain,dissipated,work,lost,momentum,impulse\n";
+  std::string out = "time,kinetic,strain,dissipated,viscous,contact,scheme,work,lost,momentum,impulse\n";
   for (const LedgerLine& line : run.ledger) {
-    out += fmt::format("{},{},{},{},{},{},{},{}\n", line.time, line.kinetic, line.strain, line.dissipated, line.work,
-                       line.lost, line.momentum, line.impulse);
+    out += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", line.time, line.kinetic, line.strain, line.dissipated,
+                       line.viscous, line.contact, line.scheme, line.work, line.lost, line.momentum, line.impulse);
   }
   return out;
 }

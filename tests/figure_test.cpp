@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <cstdio>
@@ -12,8 +13,10 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <sstream>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -88,6 +91,105 @@ bool drawn(const Figure& figure, const fs::path& directory) {
   return result == Drawn::yes;
 }
 
+const double nan_value = std::numeric_limits<double>::quiet_NaN();
+
+void add(Curve& curve, double x, double y) {
+  curve.x.push_back(x);
+  curve.y.push_back(y);
+}
+
+/// Two bars of length 0.5 in 0 <= x <= 1.5, the right one a mirror image: each has its own level of stress.
+Figure two_bars(int particles = 50) {
+  Figure figure = example(1);
+  figure.x_max = 1.5;
+  figure.panels[0].series[0].curve = {{0, 0.5, nan_value, 1, 1.5}, {-0.5, -0.5, nan_value, 0.5, 0.5}};
+  for (Figure::Series* series : {&figure.panels[0].series[1], &figure.panels[0].series[2]}) {
+    series->curve = {};
+    for (int i = 0; i < particles; ++i) add(series->curve, 0.5 * (i + 0.5) / particles, -0.5);
+    add(series->curve, nan_value, nan_value);
+    for (int i = 0; i < particles; ++i) add(series->curve, 1 + 0.5 * (i + 0.5) / particles, 0.5);
+  }
+  return figure;
+}
+
+/// Where two particles are that meet at x = 0.75, t = 0.25 and fly apart at t = 0.26; x over t, times from the list.
+Curve paths(const std::vector<double>& times) {
+  Curve curve;
+  for (const double side : {-1.0, 1.0}) {
+    if (!curve.x.empty()) add(curve, nan_value, nan_value);
+    for (const double t : times) add(curve, 0.75 + side * (std::max(0.0, 0.25 - t) + std::max(0.0, t - 0.26)), t);
+  }
+  return curve;
+}
+
+/// The whole flight, and the contact magnified. The series come in the wrong order on purpose.
+Figure motion_diagram() {
+  std::vector<double> times;
+  for (int i = 0; i <= 4000; ++i) times.push_back(i / 8000.0);
+  Figure figure;
+  figure.id = "fig4";
+  figure.title = "Motion";
+  figure.x_label = "position x [m]";
+  figure.y_label = "time t [s]";
+  figure.x_max = 1.5;
+  figure.y_min = 0;
+  figure.y_max = 0.5;
+  figure.motion = true;
+  const Figure::Series mpm{"MPM", "mpm", paths(times)}, fem{"FEM", "fem", paths(times)},
+      exact{"exact", "exact", paths({0, 0.25, 0.26, 0.5})};
+  figure.panels.resize(2);
+  figure.panels[0].label = "whole flight";
+  figure.panels[1].label = "contact";
+  for (Figure::Panel& panel : figure.panels) panel.series = {mpm, fem, exact};
+  figure.panels[1].x_range = {{0.7, 0.8}};
+  figure.panels[1].y_range = {{0.245, 0.265}};
+  return figure;
+}
+
+/// One element of a panel's plot command: "lines ls 2", and its points as gnuplot reads them.
+struct Drawing {
+  std::string style;
+  Curve points;
+  std::size_t breaks() const {
+    return static_cast<std::size_t>(std::count_if(points.x.begin(), points.x.end(), [](double x) { return x != x; }));
+  }
+};
+std::vector<Drawing> drawings(const std::string& script, int panel) {
+  std::vector<Drawing> all;
+  std::istringstream in(script.substr(script.find("# Panel " + std::to_string(panel) + "\n")));
+  std::string line;
+  while (std::getline(in, line) && !line.starts_with("plot ")) {
+  }
+  for (std::size_t at = 0; (at = line.find("with ", at)) != std::string::npos;) {
+    at += 5;
+    all.push_back({line.substr(at, line.find(", ", at) - at), {}});
+  }
+  for (Drawing& one : all)
+    while (std::getline(in, line) && line != "e") {
+      const std::size_t blank = line.find(' ');
+      add(one.points, std::stod(line.substr(0, blank)), std::stod(line.substr(blank)));
+    }
+  return all;
+}
+
+/// The lines of one colour in a picture, without the legend's sample [px].
+std::vector<Curve> lines_in(const std::string& svg, const std::string& colour) {
+  std::vector<Curve> lines;
+  for (std::size_t at = 0; (at = svg.find("<path stroke='" + colour + "'", at)) != std::string::npos; ++at) {
+    const std::size_t from = svg.find("d='", at) + 3;
+    std::istringstream in(svg.substr(from, svg.find('\'', from) - from));
+    char letter = 0, comma = 0;
+    double x = 0, y = 0;
+    while (in >> letter && letter != 'Z' && in >> x >> comma >> y) {
+      if (letter == 'M') lines.emplace_back();
+      add(lines.back(), x, y);
+    }
+  }
+  std::erase_if(lines, [](const Curve& c) { return c.x.size() == 2 && c.y[0] == c.y[1] && c.x[1] - c.x[0] < 36; });
+  return lines;
+}
+const std::string fem_colour = "rgb(  8,  48, 107)", exact_colour = "rgb(198, 198, 198)";
+
 }  // namespace
 
 BOOST_AUTO_TEST_SUITE(figures)
@@ -138,7 +240,7 @@ BOOST_AUTO_TEST_CASE(many_panels_and_points) {
 BOOST_AUTO_TEST_CASE(values_that_are_not_finite) {
   const Folder folder;
   Figure figure = example(3);
-  const double nan_value = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+  const double infinity = std::numeric_limits<double>::infinity();
   figure.panels[0].series[2].curve.y[5] = nan_value;
   figure.panels[0].series[2].curve.y[6] = infinity;
   figure.panels[0].series[2].curve.y[7] = -1e300;
@@ -148,6 +250,184 @@ BOOST_AUTO_TEST_CASE(values_that_are_not_finite) {
   BOOST_TEST(has(contents(folder.path / "fig1.gp"), " nan\n"));
   BOOST_TEST(has(contents(folder.path / "fig1.gp"), "[no finite values: MPM]"));
   BOOST_TEST(has(contents(folder.path / "fig1.csv"), ",nan\n"));
+}
+
+BOOST_AUTO_TEST_CASE(no_line_crosses_the_gap_between_two_bars) {
+  const Folder folder;
+  const bool picture = drawn(two_bars(), folder.path);
+  const std::vector<Drawing> all = drawings(contents(folder.path / "fig1.gp"), 1);
+  BOOST_TEST_REQUIRE(all.size() == 4U);
+  BOOST_TEST(all[0].breaks() == 1U);
+  BOOST_TEST(all[1].points.x.size() == 101U);
+  BOOST_TEST(std::isnan(all[1].points.x[50]));
+  BOOST_TEST(std::isnan(all[1].points.y[50]));
+  const std::string csv = contents(folder.path / "fig1.csv");
+  BOOST_TEST(has(csv, "\n# nan: a line ends here; the next row begins a new one\npanel,series,x,y\n"));
+  BOOST_TEST(has(csv, "FEM,0.495,-0.5\n\"t = 0 L/c, \"\"front\"\"\",FEM,nan,nan\n"));
+  if (!picture) return;
+  const std::string svg = contents(folder.path / "fig1.svg");
+  for (const std::string& colour : {fem_colour, exact_colour}) {
+    const std::vector<Curve> lines = lines_in(svg, colour);
+    BOOST_TEST_REQUIRE(lines.size() == 2U, colour);
+    BOOST_TEST(lines[0].x.back() < 360);  // the plot begins at 88 px and 788 px show 1.5: the gap is 351 to 613
+    BOOST_TEST(lines[1].x.front() > 605);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(each_bar_begins_with_a_marker) {
+  const Folder folder;
+  drawn(two_bars(200), folder.path);
+  const std::string script = contents(folder.path / "fig1.gp");
+  const std::vector<Drawing> all = drawings(script, 1);
+  BOOST_TEST_REQUIRE(all.size() == 4U);
+  BOOST_TEST(all[2].style == "lines ls 3");
+  BOOST_TEST(all[2].points.x.size() == 401U);
+  BOOST_TEST(all[2].breaks() == 1U);
+  BOOST_TEST(all[3].style == "points ls 3");
+  // 199 steps go over 261 px: markers 7.5 px apart are 5.7 points apart, the next odd number is 7.
+  BOOST_TEST(has(script, " pi 7 "));
+  BOOST_TEST(has(script, "'MPM (marker at every 7th point)'"));
+  const Curve& marked = all[3].points;
+  BOOST_TEST_REQUIRE(marked.x.size() == 58U);  // 200 / 7, rounded up, for each bar
+  for (std::size_t i = 0; i < 29; ++i) {
+    const double first = 0.5 * (7.0 * static_cast<double>(i) + 0.5) / 200;
+    BOOST_TEST(std::abs(marked.x[i] - first) < 1e-12);
+    BOOST_TEST(std::abs(marked.x[i + 29] - (1 + first)) < 1e-12);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(motion_diagram_shows_the_flight_and_the_contact) {
+  const Folder folder;
+  const bool picture = drawn(motion_diagram(), folder.path);
+  const std::string script = contents(folder.path / "fig4.gp");
+  BOOST_TEST(has(script, "set xrange [0:1.5]; set yrange [0:0.5]\nset format x '%g'; set format y '%g'\n"));
+  BOOST_TEST(has(script, "set xrange [0.7:0.8]; set yrange [0.245:0.265]\nset format x '%g'; set format y '%g'\n"));
+  BOOST_TEST(has(script, "rectangle from 0.7,0.245 to 0.8,0.265 "));  // in the first panel: what the second magnifies
+  BOOST_TEST(script.find(" rectangle ") < script.find("# Panel 2\n"));
+  BOOST_TEST(script.find(" rectangle ") == script.rfind(" rectangle "));
+  BOOST_TEST(script.find("unset object") < script.find("# Panel 2\n"));
+  BOOST_TEST(has(script, "size 900,"));
+  const auto margins = [&](int panel) {
+    const std::size_t at = script.find("set tmargin", script.find("# Panel " + std::to_string(panel) + "\n"));
+    return script.substr(at, script.find('\n', at) - at);
+  };
+  BOOST_TEST(margins(1) == margins(2));  // side by side
+  for (const int panel : {1, 2}) {
+    const std::vector<Drawing> all = drawings(script, panel);
+    BOOST_TEST_REQUIRE(all.size() == 4U);
+    // Exact below all, the line between markers below FEM's, markers above: so methods that agree can all be seen.
+    BOOST_TEST(all[0].style == "lines ls 3");
+    BOOST_TEST(all[1].style == "lines ls 1");
+    BOOST_TEST(all[2].style == "lines ls 2");
+    BOOST_TEST(all[3].style == "points ls 1");
+    for (const std::size_t i : {0U, 1U, 2U}) BOOST_TEST(all[i].breaks() == 1U);
+    BOOST_TEST(all[1].points.x.size() == 2U * 4001 + 1);
+    BOOST_TEST(all[3].breaks() == 0U);
+    // Markers of both particles at the same times, the first at the start, as far apart as a reader can tell.
+    const Curve& marked = all[3].points;
+    const std::size_t half = marked.y.size() / 2;
+    BOOST_TEST(marked.y.size() == 2 * half);
+    BOOST_TEST(marked.y[0] == 0.0);
+    for (std::size_t i = 0; i < half; ++i) BOOST_TEST(marked.y[i] == marked.y[i + half]);
+    const double pixels = 450 * (marked.y[1] - marked.y[0]) / (panel == 1 ? 0.5 : 0.02);  // upwards
+    BOOST_TEST(pixels > 15);
+    BOOST_TEST(pixels < 30);
+  }
+  if (!picture) return;
+  // Every path of both panels is there, also the exact ones, of which the second panel holds the two kinks only.
+  const std::string svg = contents(folder.path / "fig4.svg");
+  for (const std::string& colour : {fem_colour, exact_colour}) {
+    const std::vector<Curve> lines = lines_in(svg, colour);
+    BOOST_TEST(lines.size() == 4U, colour);
+    for (const Curve& line : lines) {
+      const auto [low, high] = std::minmax_element(line.y.begin(), line.y.end());
+      BOOST_TEST(std::abs(*high - *low - 450) < 2, colour);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_line_crosses_a_panel_without_a_point_in_it) {
+  const Folder folder;
+  Figure figure = motion_diagram();
+  figure.panels.erase(figure.panels.begin());
+  figure.panels[0].series = {{"exact", "exact", {{0, 1.5}, {0, 0.51}}}, {"FEM", "fem", {{0, 0.1}, {0.2, 0.3}}}};
+  const bool picture = drawn(figure, folder.path);
+  const std::string script = contents(folder.path / "fig4.gp");
+  BOOST_TEST(has(script, "'contact [outside the axes: FEM]'"));
+  if (!picture) return;
+  const std::vector<Curve> lines = lines_in(contents(folder.path / "fig4.svg"), exact_colour);
+  BOOST_TEST_REQUIRE(lines.size() == 1U);
+  BOOST_TEST(lines[0].x.back() - lines[0].x.front() > 400);
+}
+
+BOOST_AUTO_TEST_CASE(a_panel_that_magnifies_one_axis_alone_is_framed_too) {
+  const Folder folder;
+  Figure figure = motion_diagram();
+  figure.panels[1].x_range.reset();
+  drawn(figure, folder.path);
+  BOOST_TEST(has(contents(folder.path / "fig4.gp"), "rectangle from 0,0.245 to 1.5,0.265 "));
+  figure.panels[1].x_range = {{0.7, 0.8}};
+  figure.panels[1].y_range.reset();
+  drawn(figure, folder.path);
+  BOOST_TEST(has(contents(folder.path / "fig4.gp"), "rectangle from 0.7,0 to 0.8,0.5 "));
+  figure.panels[1].x_range.reset();  // the same axes: nothing is magnified
+  drawn(figure, folder.path);
+  BOOST_TEST(!has(contents(folder.path / "fig4.gp"), "rectangle"));
+}
+
+BOOST_AUTO_TEST_CASE(methods_that_agree_take_turns_with_their_markers) {
+  const Folder folder;
+  Figure figure = motion_diagram();
+  for (Figure::Panel& panel : figure.panels) {
+    panel.series.push_back(panel.series[0]);
+    panel.series.back().label = "MPM 2";
+  }
+  drawn(figure, folder.path);
+  for (const int panel : {1, 2}) {
+    const std::vector<Drawing> all = drawings(contents(folder.path / "fig4.gp"), panel);
+    BOOST_TEST_REQUIRE(all.size() == 6U);
+    const Curve &one = all[4].points, &other = all[5].points;
+    const double share = (other.y[0] - one.y[0]) / (one.y[1] - one.y[0]);
+    BOOST_TEST(share > 0.4);
+    BOOST_TEST(share < 0.6);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(panels_with_axes_of_their_own) {
+  const Folder folder;
+  Figure figure = example(3);
+  figure.panels[1].y_range = {{-7, 9}};
+  figure.panels[2].x_label = "distance [mm]";
+  figure.panels[2].y_label = "velocity [m/s]";
+  drawn(figure, folder.path);
+  const std::string script = contents(folder.path / "fig1.gp");
+  BOOST_TEST(has(script, "set xrange [0:1]; set yrange [-1:2]\n"));
+  BOOST_TEST(has(script, "set xrange [0:1]; set yrange [-7:9]\n"));
+  BOOST_TEST(script.rfind("set yrange [-1:2]") > script.find("# Panel 3"));
+  BOOST_TEST(!has(script, "set format x ''"));  // a label of its own without tick labels would be read for another's
+  const auto times = [&](const std::string& words) {
+    int count = 0;
+    for (std::size_t at = 0; (at = script.find("set label '" + words + "'", at)) != std::string::npos; ++at) ++count;
+    return count;
+  };
+  BOOST_TEST(times("x / L [-]") == 2);
+  BOOST_TEST(times("distance [mm]") == 1);
+  BOOST_TEST(times("stress [Pa]") == 2);
+  BOOST_TEST(times("velocity [m/s]") == 1);
+  BOOST_TEST(has(contents(folder.path / "fig1.csv"), "# y of panel 't = 2 L/c, \"front\"': velocity [m/s]\npanel,"));
+}
+
+BOOST_AUTO_TEST_CASE(a_plain_figure_has_nothing_of_motion_diagrams) {
+  const Folder folder;
+  drawn(example(3, 500), folder.path);
+  const std::string script = contents(folder.path / "fig1.gp");
+  for (const char* command : {"set clip", "object", "nan"}) BOOST_TEST(!has(script, command), command);
+  BOOST_TEST(script.find("set xrange") == script.rfind("set xrange"));
+  BOOST_TEST(has(script, "set format x ''"));
+  const std::vector<Drawing> all = drawings(script, 1);
+  BOOST_TEST_REQUIRE(all.size() == 3U);
+  BOOST_TEST(all[2].style == "linespoints ls 3");
+  BOOST_TEST(!has(contents(folder.path / "fig1.csv"), "nan"));
 }
 
 BOOST_AUTO_TEST_CASE(missing_gnuplot_leaves_script_and_data) {
@@ -196,6 +476,11 @@ BOOST_AUTO_TEST_CASE(refuses_what_cannot_be_drawn) {
   refused([](Figure& f) { f.y_max = f.y_min; });
   refused([](Figure& f) { f.x_max = std::numeric_limits<double>::quiet_NaN(); });
   refused([](Figure& f) { f.panels[0].series[0].curve.x.pop_back(); });
+  refused([](Figure& f) { f.panels[1].x_range = {{0.5, 0.5}}; });
+  refused([](Figure& f) { f.panels[1].x_range = {{0.5, 0.4}}; });
+  refused([](Figure& f) { f.panels[1].x_range = {{0, std::numeric_limits<double>::infinity()}}; });
+  refused([](Figure& f) { f.panels[1].y_range = {{-std::numeric_limits<double>::infinity(), 1}}; });
+  refused([](Figure& f) { f.panels[1].y_range = {{0, nan_value}}; });
   BOOST_TEST(folder.entries() == 0U);
   std::ofstream(folder.path / "file") << "x";
   BOOST_CHECK_THROW(draw(example(), folder.path / "file", message), std::runtime_error);

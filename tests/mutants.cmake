@@ -76,8 +76,8 @@ mutant(fem-density FILE fem/bar.cpp
         bar.step.fixed-free/displacement-l1 bar.step.fixed-free/displacement-l2
         bar.mode.fixed-free/displacement-constant)
 mutant(mpm-density FILE mpm/bar.cpp
-  FIND    "particle_mass_(law.density * h_"
-  REPLACE "particle_mass_(1.01 * law.density * h_"
+  FIND    "laws[b].density * h_"
+  REPLACE "1.01 * laws[b].density * h_"
   KILLS bar.step.fixed-free/musl-magic-step bar.step.free-free/musl-magic-step bar.impulse.free-free/musl-magic-step
         bar.step.fixed-free/musl-constant bar.step.fixed-free/usf-constant bar.step.fixed-free/usl-constant
         bar.step.fixed-free/usl-order bar.mode.fixed-free/stress-constant)
@@ -109,9 +109,9 @@ mutant(fem-load-a-step-late FILE fem/bar.cpp
   REPLACE "(kick.from < dt_ ? 0 : load.mean_traction(kick.from - dt_, kick.to - dt_))"
   KILLS bar.step.fixed-free/fem-magic-step bar.step.fixed-free/fem-constant bar.step.free-free/constant)
 mutant(musl-filters-a-little-less FILE mpm/bar.cpp
-  FIND    "const double momentum = particle_mass_ * velocity_[p];
+  FIND    "const double momentum = mass(p) * velocity_[p];
           return Pair{(0.5 - offset_[p]) * momentum, (0.5 + offset_[p]) * momentum};"
-  REPLACE "const double momentum = particle_mass_ * velocity_[p];
+  REPLACE "const double momentum = mass(p) * velocity_[p];
           return Pair{(0.5 - offset_[p]) * momentum, (0.5 + offset_[p]) * (1 + 1e-6) * momentum};"
   KILLS bar.step.fixed-free/musl-is-fem-on-half-the-cells bar.step.free-free/musl-is-fem-on-half-the-cells
         bar.impulse.free-free/musl-is-fem-on-half-the-cells)
@@ -172,12 +172,13 @@ mutant(fem-absolute-tolerance FILE fem/bar.cpp
   REPLACE "(velocity_[e + 1] - velocity_[e] + 1e-15) / h_"
   KILLS bar.step.fixed-free/power-of-two)
 mutant(fem-one-sided-rounding FILE fem/bar.cpp
-  FIND    "displacement_[i] += dt_ * velocity_[i]"
-  REPLACE "displacement_[i] += dt_ * velocity_[i] * (velocity_[i] > 0 ? 1 + 1e-15 : 1)"
+  FIND    "displacement_[i] += dt * velocity_[i]"
+  REPLACE "displacement_[i] += dt * velocity_[i] * (velocity_[i] > 0 ? 1 + 1e-15 : 1)"
   KILLS bar.step.fixed-free/mirror bar.step.free-free/mirror bar.impulse.free-free/mirror)
 mutant(fem-remembers-the-last-run FILE fem/bar.cpp
-  FIND    "    internal_force();"
-  REPLACE "    static double noise = 0; noise += 1e-17; velocity_[1] += noise; internal_force();"
+  FIND    "    for (auto& mesh : meshes_) mesh.internal_force();"
+  REPLACE "    static double noise = 0; noise += 1e-17; first().velocity_at(1) += noise;
+    for (auto& mesh : meshes_) mesh.internal_force();"
   KILLS bar.energy/repeat)
 mutant(fem-load-on-one-end-reversed FILE fem/bar.cpp
   FIND    "load_[0] -= traction"
@@ -185,16 +186,16 @@ mutant(fem-load-on-one-end-reversed FILE fem/bar.cpp
   KILLS bar.step.free-free/fem-magic-step bar.impulse.free-free/fem-magic-step bar.step.free-free/constant
         bar.impulse.free-free/constant)
 mutant(fem-impulse-forgets-the-support FILE fem/bar.cpp
-  FIND    "sum -= force_[0]"
-  REPLACE "sum -= 0.999999 * force_[0]"
+  FIND    "sum -= first().force_at(0)"
+  REPLACE "sum -= 0.999999 * first().force_at(0)"
   KILLS bar.step.fixed-free/momentum bar.body-force/momentum)
 mutant(fem-impulse-forgets-a-load FILE fem/bar.cpp
   FIND    "double sum = load_[0] + load_[1];"
   REPLACE "double sum = load_[1];"
   KILLS bar.step.free-free/momentum bar.impulse.free-free/momentum)
 mutant(fem-body-force-a-step-late FILE fem/bar.cpp
-  FIND    "scene_.body_force(node(i), time)"
-  REPLACE "scene_.body_force(node(i), time - dt_)"
+  FIND    "mesh.add_body_force((kick.from + kick.to) / 2)"
+  REPLACE "mesh.add_body_force((kick.from + kick.to) / 2 - dt_)"
   KILLS bar.body-force/displacement-order bar.body-force/velocity-order)
 
 # --- MPM ----------------------------------------------------------------------------------------------------------------
@@ -263,20 +264,20 @@ mutant(oracle-takes-a-wall-for-a-free-end FILE analytic/bar_wave.cpp
   KILLS bar.step.fixed-free/fem-magic-step bar.step.fixed-free/fem-constant)
 
 mutant(fem-initial-stress-at-the-node FILE fem/bar.cpp
-  FIND    "scene.initial_stress(midpoint(e))"
-  REPLACE "scene.initial_stress(node(e))"
+  FIND    "bar.initial_stress(midpoint(e))"
+  REPLACE "bar.initial_stress(node(e))"
   KILLS bar.initial-state/displacement-order bar.initial-state/velocity-order bar.initial-state/displacement)
 mutant(fem-initial-velocity-beside-the-node FILE fem/bar.cpp
-  FIND    "scene.initial_velocity(node(i))"
-  REPLACE "scene.initial_velocity(node(i) + 0.1 * h_)"
+  FIND    "bar.initial_velocity(node(i))"
+  REPLACE "bar.initial_velocity(node(i) + 0.1 * h_)"
   KILLS bar.mode.fixed-free/displacement-between bar.initial-state/velocity-order)
 mutant(fem-impulse-forgets-the-right-support FILE fem/bar.cpp
-  FIND    "sum -= force_[cells_]"
-  REPLACE "sum -= 0.999999 * force_[cells_]"
+  FIND    "sum -= last().force_at(last().cells())"
+  REPLACE "sum -= 0.999999 * last().force_at(last().cells())"
   KILLS bar.initial-state/momentum)
 mutant(mpm-layer-on-the-wrong-end FILE mpm/bar.cpp
-  FIND    "load.end == End::left ? q : offset_.size() - 1 - q"
-  REPLACE "offset_.size() - 1 - q"
+  FIND    "load.end == End::left ? member.first + q : member.last - 1 - q"
+  REPLACE "member.last - 1 - q"
   KILLS bar.traction.layer-left/end-stress)
 
 add_test(NAME teeth.coverage

@@ -10,8 +10,8 @@ namespace diptych::tests {
 /// The paper's bar: L = 1, E = 1e4, ρ = 1, c = 100, fixed on the left, a tensile step of 1 on the right.
 inline Scene step_scene(double traction = 1) {
   Scene scene;
-  scene.length = 1;
-  scene.material = material::Elastic{1e4, 1};
+  scene.bars[0].length = 1;
+  scene.bars[0].material = material::Elastic{1e4, 1};
   scene.left = Support::fixed;
   Load load;
   load.end = End::right;
