@@ -39,13 +39,14 @@ struct ImpactBar {
 ///
 /// Round-off: events at one place count as one where they are less than 1e-11 of the shortest L/c apart, and a front
 /// is dropped where its jump is below 1e-14 of the largest stress (or ρc times speed) of its bar. Times, places
-/// and states are kept in long double, so that on x86 true coincidences lie far inside both; where long double is
-/// double they still lie inside for some 10⁴ L/c. What is merged or dropped is an error of that size, once.
+/// and states are kept in long double, so that on x86 true coincidences lie far inside both (less far where
+/// long double is double). What is merged or dropped is an error of that size, once.
 ///
 /// The number of fronts stays bounded in elastic bars whose crossing times are commensurate and grows like a power of
 /// time in others that share contacts. Where a plastic front nears another or a yield jump, elastic waves run to and
 /// fro between them ever faster: such a cascade has no last event but converges geometrically, and round-off as above
-/// ends it. Hardening bars can therefore be followed for some crossings only before there are too many events.
+/// ends it. Hardening bars can therefore be followed for a limited time, from below one crossing to for ever as the
+/// case may be, before there are too many events.
 class BarImpact final : public ExactSolution {
  public:
   struct Parameters {

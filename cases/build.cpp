@@ -196,8 +196,15 @@ std::vector<Span> spans_of(const Case& c, int cells) {
   return spans;
 }
 
+material::Viscosity viscosity_of(const Case& c) {
+  material::Viscosity v = c.viscosity->form;
+  v.c1 = Expression(c.viscosity->c1, {}, expression_constants(c))();
+  v.c2 = Expression(c.viscosity->c2, {}, expression_constants(c))();
+  return v;
+}
+
 double viscosity_strength(const Case& c) {
-  const material::Viscosity& v = *c.viscosity;
+  const material::Viscosity v = viscosity_of(c);
   return v.form == material::Viscosity::Form::york ? v.bulk * v.length * (v.c1 + v.c2) : v.c1;
 }
 
@@ -236,7 +243,7 @@ Scene make_scene(const Case& c, int cells) {
     if (!c.bars[b].velocity.empty()) bar.initial_velocity = [v = velocity_of(c, b)](double) { return v; };
   }
   scene.contact = c.contact;
-  scene.viscosity = c.viscosity;
+  if (c.viscosity) scene.viscosity = viscosity_of(c);
   scene.left = c.left;
   scene.right = c.right;
   scene.convected = c.convected;

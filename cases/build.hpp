@@ -30,6 +30,8 @@ double length_of(const Case&, const Measured&, int cells);
 
 /// Where each bar stands at the start, on a grid of `cells` in the first one [m].
 std::vector<Span> spans_of(const Case&, int cells);
+/// The case's artificial viscosity, which it must have.
+material::Viscosity viscosity_of(const Case&);
 /// ν/(c h) of the case's artificial viscosity: of eq. 21 where it is largest, else of the linear term.
 double viscosity_strength(const Case&);
 /// A scene with one of the bars and what holds and loads it.

@@ -40,6 +40,12 @@ struct LoadSpec {
   Measured layer_thickness;  ///< boundary layer: > 0, unit "cells", "m" or "L"
 };
 
+/// Artificial viscosity whose constants may be expressions of parameters.
+struct ViscositySpec {
+  material::Viscosity form;    ///< all but the constants
+  std::string c1 = "0", c2 = "0";
+};
+
 struct ExactSpec {
   /// "bar-wave" (steps, ramps and impulses on the ends, from rest), "standing-mode", "impact" (bars that fly, strike and
   /// yield), "plastic-impact" (two equal bars without hardening), "expressions" or "none".
@@ -134,7 +140,7 @@ struct Case {
   Support left = Support::free, right = Support::free;
   bool convected = false;
   Contact contact = Contact::node_to_node;
-  std::optional<material::Viscosity> viscosity;
+  std::optional<ViscositySpec> viscosity;
   std::vector<LoadSpec> loads;
   std::string body_force, initial_velocity, initial_stress;  ///< expressions, empty: none
   Parameters parameters;                                     ///< names for expressions, besides L, E, rho, c and pi

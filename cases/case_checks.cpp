@@ -189,6 +189,20 @@ std::vector<Case> variants(const Case& c) {
   return all;
 }
 
+void check_not_negative(const Place& place, const std::string& formula, const Case& c) {
+  for (const Case& variant : variants(c)) {
+    double value = 0;
+    try {
+      value = Expression(formula, {}, expression_constants(variant))();
+    } catch (const InputError&) {
+      return;  // reported already
+    }
+    if (value >= 0) continue;
+    place.refuse(words(value), "a number >= 0");
+    return;
+  }
+}
+
 void check_bars(const Place& place, const Case& c) {
   if (c.bars.size() == 1 || !bar_is_known(c)) return;
   for (const int cells : all_axes(c).cells) {

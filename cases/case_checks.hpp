@@ -23,6 +23,7 @@ inline const Names invariants{"energy.drift",
                               "bits.mirror",
                               "bits.repeat",
                               "bits.alone",
+                              "bits.inviscid",
                               "cross.fem-on-half-the-cells"};
 
 /// What a `constant` gate may be measured against.
@@ -38,6 +39,8 @@ std::vector<Leaf> runs_of(const GateSpec&, const Case&);
 /// Each of them greater than the one before.
 bool ascending(const std::vector<double>&);
 
+/// A constant that is not negative for any values of the parameters that runs have.
+void check_not_negative(const Place&, const std::string& formula, const Case&);
 /// Bars that fit one grid in every run, and velocities beside [initial].
 void check_bars(const Place& bar, const Case&);
 void check_in_some_bar(const Place&, const Measured& at, const Case&);

@@ -124,7 +124,7 @@ std::string read_expression(Table& t, const std::string& key, const Names& varia
 
 /// The times of a gate or figure, all of them sampled.
 std::vector<double> read_times(Table& t, const Case& c) {
-  const auto times = t.get("times", set_of(positive()));
+  const auto times = t.get("times", set_of(any_number()));
   among(t.place("times"), times, c.times, "sample.times.at");
   if (ascending(times)) return times;
   t.place("times").refuse(words(times), "times in ascending order");
@@ -217,12 +217,17 @@ void read_viscosity(Table& t, Case& c) {
   const std::string form = t.need("form", one_of({"york", "linear-quadratic"}));
   const bool york = form != "linear-quadratic";
   v.form = york ? material::Viscosity::Form::york : material::Viscosity::Form::linear_quadratic;
-  v.c1 = t.need("c1", not_negative());
-  v.c2 = t.need("c2", not_negative());
+  ViscositySpec spec;
+  for (const auto& [key, formula] : {std::pair{"c1", &spec.c1}, {"c2", &spec.c2}}) {
+    *formula = t.must(key, constant_formula()).value_or("0");
+    check_expression(t.place(key), *formula, {}, c);
+    check_not_negative(t.place(key), *formula, c);
+  }
   if (t.applies("bulk", "form", form, {"york"})) v.bulk = t.get("bulk", positive(), v.bulk);
   if (t.applies("length", "form", form, {"york"})) v.length = t.get("length", positive(), v.length);
   v.always = t.get("acts", one_of({"compression", "always"})) == "always";
-  c.viscosity = v;
+  spec.form = v;
+  c.viscosity = spec;
 }
 
 void read_supports(Table& t, Case& c) {

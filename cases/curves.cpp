@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analytic/plastic_impact.hpp"
 #include "cases/build.hpp"
+#include "cases/outcomes.hpp"
 
 namespace diptych::cases {
 namespace {
@@ -101,6 +103,7 @@ std::vector<long> steps_of_motion(const Case& c, const Leaf& leaf, const Steppin
 void trace(const std::vector<Snapshot>& snapshots, const Scene& scene, const analytic::ExactSolution* exact,
            reports::Run& run) {
   constexpr int parts = 4;
+  const auto* plastic = dynamic_cast<const analytic::PlasticImpact*>(inner(exact));
   for (std::size_t b = 0; b < scene.bars.size(); ++b) {
     for (int k = 0; k <= parts; ++k) {
       if (!run.paths.x.empty()) {
@@ -117,7 +120,10 @@ void trace(const std::vector<Snapshot>& snapshots, const Scene& scene, const ana
         if (!exact || !exact->gives(Quantity::displacement)) continue;
         const double length = scene.bars[b].length, inside = 1e-9 * length;
         const double x = std::clamp(u.x[i], scene.bars[b].begin + inside, scene.bars[b].end() - inside);
-        run.exact_paths.x.push_back(x + exact->at(Quantity::displacement, x, u.time));
+        double place = x + exact->at(Quantity::displacement, x, u.time);
+        // A struck face without hardening stands still while what is next to it flows into it.
+        if (plastic && k == (b == 0 ? parts : 0)) place += (b == 0 ? -1 : 1) * plastic->plastic_strain(u.time);
+        run.exact_paths.x.push_back(place);
         run.exact_paths.y.push_back(u.time);
       }
     }

@@ -87,7 +87,7 @@ std::vector<std::string> notes_of(const Case& c, const FigureSpec& spec) {
     notes.push_back(fmt::format("Velocities at the start {}.{}", velocities, !mpm || !c.from_contact || spec.kind == "motion" ? "" :
                     " Each method's times count from its own contact: MPM's bars touch as soon as they share a node."));
   if (c.viscosity) {
-    const auto& v = *c.viscosity;
+    const material::Viscosity v = viscosity_of(c);
     notes.push_back(v.form == material::Viscosity::Form::york
                         ? fmt::format("Artificial viscosity of eq. 21: c1 = {:g}, c2 = {:g}, λ = {:g}, g = {:g} cells", v.c1,
                                       v.c2, v.bulk, v.length)

@@ -131,6 +131,11 @@ void measure_bits(const Case& c, const Leaf& leaf, const Scene& scene, const Ste
     }
   };
   if (asks_for(c, leaf, "bits.repeat")) compare("bits.repeat", scene, leaf, stepping, one, false);
+  if (asks_for(c, leaf, "bits.inviscid") && scene.viscosity) {
+    Scene without = scene;
+    without.viscosity.reset();
+    compare("bits.inviscid", without, leaf, stepping, one, false);
+  }
   if (asks_for(c, leaf, "bits.alone") && scene.bars.size() > 1) {
     double count = 0;
     for (std::size_t b = 0; b < scene.bars.size(); ++b) {
@@ -202,7 +207,7 @@ double bisect_limit(const Scene& scene, const Leaf& leaf, double predicted, long
 
 /// In the checkerboard that blows up first a point is compressed every other step, so viscosity of compression alone is
 /// half as strong on it: q = ρν(D − |D|)/2 with one |D| for all points.
-double blow_up_strength(const Case& c) { return viscosity_strength(c) / (c.viscosity->always ? 1 : 2); }
+double blow_up_strength(const Case& c) { return viscosity_strength(c) / (c.viscosity->form.always ? 1 : 2); }
 
 void measure_limit(const Case& c, const Leaf& leaf, const Scene& scene, const std::atomic<bool>* cancelled,
                    reports::Run& run) {

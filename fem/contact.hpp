@@ -19,7 +19,8 @@ struct Face {
 /// relative energy, of the order of the element size. Contact ends in the middle of the kick in which the opening wave
 /// arrives, so that kick feels half of the pressure before it; and it ends when the pressure after it, 2p − p⁻ by that
 /// reckoning, would have to pull. With this release (compare Hughes et al., CMAME 8, 1976) bars at Courant number 1 part
-/// with the exact velocities, and what the impact lost comes back.
+/// with the exact velocities, and what the impact lost comes back. The pressure before a kick is that of the last one, or,
+/// where a front arrived in that, less: what it left behind.
 class Pair {
  public:
   Pair(std::size_t left, double gap, Contact contact) : left_(left), gap_at_start_(gap), contact_(contact) {}
@@ -34,7 +35,7 @@ class Pair {
     opened_ = closed_ = false;
     force_ = needed;
     if (touching_) {
-      const double half = pressure_ / 2;
+      const double half = std::max(0.0, std::min(pressure_, 2 * pressure_ - earlier_)) / 2;
       if (contact_ == Contact::node_to_node && needed < half) {
         force_ = half;
         touching_ = false;
@@ -47,7 +48,9 @@ class Pair {
     } else {
       force_ = 0;
     }
+    earlier_ = touching_ && !closed_ ? pressure_ : 0;
     pressure_ = touching_ ? std::max(carried, 0.0) : 0;
+    if (earlier_ == 0) earlier_ = pressure_;  // nothing is known from before the impact
     return force_;
   }
 
@@ -61,7 +64,8 @@ class Pair {
   std::size_t left_;
   double gap_at_start_;
   Contact contact_;
-  double force_ = 0, pressure_ = 0, share_of_step_ = 0;
+  double force_ = 0, share_of_step_ = 0;
+  double pressure_ = 0, earlier_ = 0;  // what the bars pressed with in the last kick and in the one before it
   bool touching_ = false, opened_ = false, closed_ = false;
 };
 

@@ -126,7 +126,7 @@ mutant(fem-damping FILE fem/bar.cpp
   KILLS bar.step.fixed-free/fem-magic-step bar.step.fixed-free/fem-constant bar.step.fixed-free/energy
         bar.step.fixed-free/momentum bar.energy/shadow-energy bar.body-force/energy bar.body-force/momentum
         bar.step.free-free/energy bar.impulse.free-free/energy
-        bar.initial-state/momentum)
+        bar.initial-state/momentum viscosity.tension/energy)
 mutant(mpm-damping FILE mpm/bar.cpp
   FIND    "velocity_[p] += kick * ("
   REPLACE "velocity_[p] = 0.99999 * velocity_[p] + kick * ("
@@ -174,7 +174,7 @@ mutant(fem-absolute-tolerance FILE fem/bar.cpp
 mutant(fem-one-sided-rounding FILE fem/bar.cpp
   FIND    "displacement_[i] += dt * velocity_[i]"
   REPLACE "displacement_[i] += dt * velocity_[i] * (velocity_[i] > 0 ? 1 + 1e-15 : 1)"
-  KILLS bar.step.fixed-free/mirror bar.step.free-free/mirror bar.impulse.free-free/mirror)
+  KILLS bar.step.fixed-free/mirror bar.step.free-free/mirror bar.impulse.free-free/mirror viscosity.front/mirror)
 mutant(fem-remembers-the-last-run FILE fem/bar.cpp
   FIND    "    for (auto& mesh : meshes_) mesh.internal_force();"
   REPLACE "    static double noise = 0; noise += 1e-17; first().velocity_at(1) += noise;
@@ -279,6 +279,163 @@ mutant(mpm-layer-on-the-wrong-end FILE mpm/bar.cpp
   FIND    "load.end == End::left ? member.first + q : member.last - 1 - q"
   REPLACE "member.last - 1 - q"
   KILLS bar.traction.layer-left/end-stress)
+
+# --- bars that collide ----------------------------------------------------------------------------------------------------
+
+mutant(contact-sticks FILE fem/contact.hpp
+  FIND    "needed < half"
+  REPLACE "needed < -1e300"
+  KILLS impact.elastic/fem-magic-stress impact.elastic/fem-magic-velocity impact.elastic/restitution
+        impact.elastic/fem-recovers impact.unequal/displacement impact.three-bars/stress impact.three-bars/velocity
+        impact.one-cell/stress impact.one-cell/restitution impact.near-sonic/stress impact.near-sonic/displacement
+        impact.sweep/restitution impact.convergence/fem-stress-l1 impact.convergence/fem-velocity-l1
+        impact.convergence/fem-stress-l2 impact.convergence/fem-velocity-l2 impact.convergence/fem-restitution
+        impact.plastic/fem-rebound impact.hardening/restitution impact.hardening-convergence/restitution
+        impact.plastic-convergence/restitution)
+mutant(contact-opens-late FILE fem/contact.hpp
+  FIND    "needed < half"
+  REPLACE "needed < -half"
+  KILLS impact.elastic/fem-magic-stress impact.unequal/stress impact.three-bars/stress impact.one-cell/stress)
+mutant(contact-opens-with-a-jerk FILE fem/contact.hpp
+  FIND    "force_ = half;"
+  REPLACE "force_ = 0.999 * half;"
+  KILLS impact.elastic/fem-magic-stress impact.unequal/stress impact.unequal/displacement impact.density-ratio/stress
+        impact.one-cell/stress impact.one-cell/restitution)
+mutant(contact-bond-lets-go FILE fem/contact.hpp
+  FIND    "contact_ == Contact::node_to_node && "
+  REPLACE ""
+  KILLS impact.bonded/stress impact.bonded/pulls)
+mutant(contact-of-bars-that-never-met FILE fem/contact.hpp
+  FIND    "      force_ = 0;"
+  REPLACE "      force_ = carried;"
+  KILLS impact.gap/alone impact.gap/magic-step impact.fraction-of-a-cell/fem-alone
+        impact.fraction-of-a-cell/fem-magic-step)
+mutant(contact-within-a-tolerance FILE fem/contact.hpp
+  FIND    "const double gap = gap_at_start_ +"
+  REPLACE "const double gap = -1e-12 + gap_at_start_ +"
+  KILLS impact.zero-speed/stress impact.zero-speed/velocity impact.zero-speed/displacement impact.unequal/power-of-two)
+mutant(contact-of-equal-masses FILE fem/contact.hpp
+  FIND    "1 / a.mass + 1 / b.mass"
+  REPLACE "2 / a.mass"
+  KILLS impact.density-ratio/stress impact.density-ratio/heavy-bar impact.unequal/stress)
+mutant(contact-found-a-step-late FILE fem/contact.hpp
+  FIND    "share_of_step_ = gap > predicted ? std::clamp(gap / (gap - predicted), 0.0, 1.0) : 0;"
+  REPLACE "share_of_step_ = 1;"
+  KILLS impact.sweep/begin)
+mutant(contact-without-a-reaction FILE fem/bar.cpp
+  FIND    "b.force_at(0) += force;"
+  REPLACE "b.force_at(0) += 0.999999 * force;"
+  KILLS impact.elastic/momentum impact.unequal/momentum impact.density-ratio/momentum impact.three-bars/momentum
+        impact.one-cell/momentum impact.sweep/momentum impact.hardening/momentum impact.plastic/momentum)
+mutant(contact-favours-a-bar FILE fem/bar.cpp
+  FIND    "a.force_at(a.cells()) -= force;"
+  REPLACE "a.force_at(a.cells()) -= (1 + 1e-15) * force;"
+  KILLS impact.elastic/mirror)
+mutant(contact-takes-no-energy FILE fem/bar.cpp
+  FIND    "if (ledger) ledger->take_by_contact(-kick.length * contact_work_rate() / 2);
+    for"
+  REPLACE "for"
+  KILLS impact.elastic/closure impact.convergence/closure impact.sweep/closure impact.hardening/closure
+        impact.plastic/closure impact.hardening-convergence/closure impact.plastic-convergence/closure)
+mutant(contact-ends-on-paper-only FILE fem/bar.cpp
+  FIND    "same)->to = now;"
+  REPLACE "same)->to = now + 0.001;"
+  KILLS impact.unequal/end impact.elastic/duration impact.hardening/fem-duration impact.plastic/fem-duration
+        impact.hardening-convergence/duration impact.plastic-convergence/duration impact.sweep/duration)
+
+mutant(mpm-bars-touch-at-two-cells FILE mpm/bar.cpp
+  FIND    "cell_[members_[b].last - 1] <= 1;"
+  REPLACE "cell_[members_[b].last - 1] <= 2;"
+  KILLS impact.elastic/early impact.sweep/early impact.hardening/early impact.plastic/early impact.convergence/early)
+mutant(mpm-touch-a-step-late FILE mpm/bar.cpp
+  FIND    "touches_.push_back({b, now});"
+  REPLACE "touches_.push_back({b, now + dt_});"
+  KILLS impact.fraction-of-a-cell/mpm-holds)
+mutant(mpm-lets-go-late FILE mpm/bar.cpp
+  FIND    "open->to = now;"
+  REPLACE "open->to = now + 0.001;"
+  KILLS impact.convergence/late-release impact.hardening/mpm-duration impact.elastic/duration)
+mutant(mpm-bars-askew FILE mpm/bar.cpp
+  FIND    "const double shift = begin - std::floor(begin);"
+  REPLACE "const double shift = begin - std::floor(begin) + (b > 0 ? 1e-12 : 0);"
+  KILLS impact.gap/alone)
+mutant(mpm-strain-of-the-moment FILE mpm/bar.cpp
+  FIND    "if constexpr (convected) strain_increment *= stretch_[p];"
+  REPLACE ""
+  KILLS impact.near-sonic-mpm/stress impact.near-sonic-mpm/energy)
+mutant(mpm-remapping-takes-no-energy FILE mpm/bar.cpp
+  FIND    "ledger->take_by_scheme(-(dt_ * power / 2 + half_work_));"
+  REPLACE ""
+  KILLS impact.one-particle/closure impact.near-sonic-mpm/closure impact.elastic/closure)
+mutant(mpm-flight-is-damped FILE mpm/bar.cpp
+  FIND    "velocity_[p] += kick * ("
+  REPLACE "velocity_[p] = 0.9 * velocity_[p] + kick * ("
+  KILLS impact.one-particle/restitution impact.one-particle/momentum impact.near-sonic-mpm/restitution
+        impact.gap-not-of-cells/momentum impact.gap-not-of-cells/energy impact.fraction-of-a-cell/momentum
+        impact.fraction-of-a-cell/energy impact.gap/energy)
+mutant(mpm-load-a-tenth-off FILE mpm/bar.cpp
+  FIND    "load.mean_traction(kick.from, kick.to)"
+  REPLACE "0.9 * load.mean_traction(kick.from, kick.to)"
+  KILLS impact.gap-not-of-cells/left-stress impact.gap-not-of-cells/right-stress impact.gap/magic-step)
+
+mutant(modulus-a-tenth-off FILE material/material.hpp
+  FIND    "state.stress += youngs_modulus * strain_increment"
+  REPLACE "state.stress += 1.1 * youngs_modulus * strain_increment"
+  KILLS impact.convergence/mpm-stress-l1 impact.convergence/mpm-stress-l2 impact.convergence/mpm-velocity-l1
+        impact.convergence/mpm-velocity-l2 impact.convergence/displacement-l2
+        impact.convergence/mpm-stress-after-release impact.convergence/mpm-velocity-after-release)
+mutant(yield-a-hundredth-high FILE material/material.hpp
+  FIND    "const double yield = yield_stress + state.hardened;"
+  REPLACE "const double yield = 1.01 * yield_stress + state.hardened;"
+  KILLS impact.plastic/interface-stress impact.plastic-convergence/restitution)
+mutant(yield-a-hundredth-low FILE material/material.hpp
+  FIND    "const double yield = yield_stress + state.hardened;"
+  REPLACE "const double yield = 0.99 * yield_stress + state.hardened;"
+  KILLS impact.at-yield/stress impact.at-yield/restitution impact.plastic/interface-stress)
+mutant(yield-never-reached FILE material/material.hpp
+  FIND    "const double yield = yield_stress + state.hardened;"
+  REPLACE "const double yield = 10 * yield_stress + state.hardened;"
+  KILLS impact.plastic/mpm-sticks impact.plastic/interface-stress impact.hardening/interface-stress
+        impact.plastic/fem-rebound)
+mutant(plastic-without-unloading FILE material/material.hpp
+  FIND    "    if (excess <= 0) {"
+  REPLACE "    if (excess <= 0 && state.hardened > 0) return {state.stress, stored(state), 0, elastic_wave_speed()};
+    if (excess <= 0) {"
+  KILLS impact.hardening-convergence/fem-stress impact.hardening-convergence/fem-velocity
+        impact.hardening-convergence/mpm-stress impact.hardening-convergence/mpm-velocity
+        impact.hardening-convergence/restitution)
+mutant(plastic-tangent-for-the-plastic-modulus FILE material/material.hpp
+  FIND    "return youngs_modulus * tangent_modulus / (youngs_modulus - tangent_modulus);"
+  REPLACE "return tangent_modulus;"
+  KILLS impact.hardening/interface-stress impact.hardening-convergence/fem-stress)
+mutant(plastic-modulus-of-yielding-bars FILE material/material.hpp
+  FIND    "const double trial = state.stress + youngs_modulus * strain_increment;"
+  REPLACE "const double trial = state.stress + 1.1 * youngs_modulus * strain_increment;"
+  KILLS impact.plastic-convergence/fem-stress impact.plastic-convergence/fem-velocity
+        impact.plastic-convergence/mpm-stress impact.plastic-convergence/mpm-velocity)
+mutant(plastic-work-a-tenth-off FILE material/material.hpp
+  FIND    "const double work = (yield + rise / 2) * plastic;"
+  REPLACE "const double work = 0.9 * (yield + rise / 2) * plastic;"
+  KILLS impact.hardening/plastic-work impact.plastic/fem-plastic-work impact.hardening-convergence/plastic-work
+        impact.plastic-convergence/plastic-work impact.hardening-convergence/plastic-work-order
+        impact.plastic-convergence/plastic-work-order)
+
+mutant(viscosity-in-tension FILE material/viscosity.hpp
+  FIND    "return D < 0 ||"
+  REPLACE "return D != 0 ||"
+  KILLS viscosity.tension/inviscid viscosity.limits-in-compression/half)
+mutant(viscosity-a-twentieth-off FILE material/viscosity.hpp
+  FIND    "(c1 * speed + c2 * h * std::abs(D))"
+  REPLACE "(1.05 * c1 * speed + c2 * h * std::abs(D))"
+  KILLS viscosity.front/stress-l1 viscosity.front/stress-l2 viscosity.front/velocity-l1 viscosity.limits/lagged)
+mutant(viscosity-of-no-grid FILE material/viscosity.hpp
+  FIND    "return density * h * D *"
+  REPLACE "return density * 0.001 * D *"
+  KILLS viscosity.front/stress-order)
+mutant(viscosity-takes-no-energy FILE fem/bar.cpp
+  FIND    "ledger->take_by_viscosity(sums.viscous_after);"
+  REPLACE ""
+  KILLS viscosity.front/closure)
 
 add_test(NAME teeth.coverage
   COMMAND ${PROJECT_SOURCE_DIR}/tests/coverage.sh $<TARGET_FILE:diptych> ${killed_list})
