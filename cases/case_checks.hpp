@@ -39,6 +39,8 @@ std::vector<Leaf> runs_of(const GateSpec&, const Case&);
 /// Each of them greater than the one before.
 bool ascending(const std::vector<double>&);
 
+/// Compiles a formula of constants; it must be finite for all values of the parameters that runs have.
+bool check_constant(const Place&, const std::string& formula, const Case&);
 /// A constant that is not negative for any values of the parameters that runs have.
 void check_not_negative(const Place&, const std::string& formula, const Case&);
 /// Bars that fit one grid in every run, and velocities beside [initial].

@@ -183,7 +183,7 @@ Rule<std::string> constant_formula() {
   }};
 }
 
-BarSpec read_bar(Table& t, Case& c, const std::optional<material::Material>& common) {
+void read_bar(Table& t, Case& c, const std::optional<material::Material>& common, std::vector<Place>& velocities) {
   BarSpec bar;
   bar.length = t.need("length", positive());
   if (t.has("material"))
@@ -196,20 +196,20 @@ BarSpec read_bar(Table& t, Case& c, const std::optional<material::Material>& com
   if (!t.has("material") && !common)
     t.place("material").say("missing; allowed: a material of its own, or one [material] for all bars without");
   c.bars.push_back(bar);
-  if (t.has("velocity")) {
-    c.bars.back().velocity = t.get("velocity", constant_formula());
-    check_expression(t.place("velocity"), c.bars.back().velocity, {}, c);
-  }
-  return bar;
+  c.bars.back().velocity = t.get("velocity", constant_formula());
+  velocities.push_back(t.place("velocity"));
 }
 
-void read_bars(Table& file, Case& c) {
+/// Gives the places of the velocities, which can be tried only when the axes are known.
+std::vector<Place> read_bars(Table& file, Case& c) {
+  std::vector<Place> velocities;
   std::optional<material::Material> common;
   file.maybe_table("material", [&](Table& t) { common = read_material(t); });
   file.maybe_table("parameters", read_parameters_of(c));
   c.bars.clear();
-  file.one_or_each("bar", [&](Table& t) { read_bar(t, c, common); });
+  file.one_or_each("bar", [&](Table& t) { read_bar(t, c, common, velocities); });
   if (c.bars.empty()) c.bars.resize(1);  // its own mistake; what follows still asks for one
+  return velocities;
 }
 
 void read_viscosity(Table& t, Case& c) {
@@ -220,8 +220,10 @@ void read_viscosity(Table& t, Case& c) {
   ViscositySpec spec;
   for (const auto& [key, formula] : {std::pair{"c1", &spec.c1}, {"c2", &spec.c2}}) {
     *formula = t.must(key, constant_formula()).value_or("0");
-    check_expression(t.place(key), *formula, {}, c);
-    check_not_negative(t.place(key), *formula, c);
+    if (check_constant(t.place(key), *formula, c))
+      check_not_negative(t.place(key), *formula, c);
+    else
+      *formula = "0";
   }
   if (t.applies("bulk", "form", form, {"york"})) v.bulk = t.get("bulk", positive(), v.bulk);
   if (t.applies("length", "form", form, {"york"})) v.length = t.get("length", positive(), v.length);
@@ -247,11 +249,10 @@ Probe read_probe(Table& t, const Case& c) {
   const double length = bar_in(probe.at.unit, c);
   if (c.bars.size() == 1 && length > 0 && probe.at.value > length)
     t.place("at").refuse(words(probe.at.value) + unit + ", outside the bar", "0 to " + words(length) + unit);
-  if (c.bars.size() > 1) check_in_some_bar(t.place("at"), probe.at, c);
   return probe;
 }
 
-void read_sample(Table& t, Case& c) {
+void read_sample(Table& t, Case& c, bool bars_are_read) {
   const std::string allowed = "times = { unit = \"L/c\", at = [0.5, 1.7] }, units " + joined(time_units);
   const Place times = t.place("times");
   if (!times.node)
@@ -264,14 +265,20 @@ void read_sample(Table& t, Case& c) {
     t.table("times", [&](Table& s) {
       c.time_unit = s.need("unit", one_of(time_units));
       c.from_contact = s.get("from", one_of({"start", "contact"})) == "contact";
-      if (c.from_contact) check_contact(s.place("from"), c);
+      if (c.from_contact && bars_are_read) check_contact(s.place("from"), c);
       c.times = s.need("at", list_of(c.from_contact ? any_number() : positive()));
-      if (c.from_contact) check_times(s.place("at"), c);
+      if (c.from_contact && bars_are_read) check_times(s.place("at"), c);
       if (ascending(c.times)) return;
       s.place("at").refuse(words(c.times), "times in ascending order, each once");
       c.times.clear();
     });
   c.probes = read_each<Probe>(t, "probes", c, read_probe);
+  if (!bars_are_read || c.bars.size() == 1) return;
+  std::size_t i = 0;
+  t.each("probes", [&](Table& p) {
+    p.place("id"), p.place("field");
+    check_in_some_bar(p.place("at"), c.probes[i++].at, c);
+  });
 }
 
 /// Values of parameters, { v0 = [0.1, 1.0] } or { v0 = 1.0 }.
@@ -339,6 +346,10 @@ void read_initial(Table& t, Case& c) {
   c.initial_velocity = read_expression(t, "velocity", {"x"}, c);
   c.initial_stress = read_expression(t, "stress", {"x"}, c);
   if (!t.has("velocity") && !t.has("stress")) t.say("found no field; allowed: velocity, stress");
+  const bool moving =
+      std::any_of(c.bars.begin(), c.bars.end(), [](const BarSpec& bar) { return !bar.velocity.empty(); });
+  if (moving && t.has("velocity"))
+    t.place("velocity").say("found beside the velocity of a bar; allowed: either bar.velocity or initial.velocity");
 }
 
 void read_exact(Table& t, Case& c) {
@@ -363,6 +374,26 @@ void read_exact(Table& t, Case& c) {
             "displacement");
 }
 
+/// Notes each parameter that is not swept and each value that no run has.
+bool among_swept(const Place& place, const std::map<std::string, std::vector<double>>& parameters, const Case& c) {
+  if (c.axes.empty()) return true;  // reported already
+  const Axes axes = all_axes(c);
+  Names names;
+  for (const auto& entry : axes.parameters) names.push_back(entry.first);
+  bool good = true;
+  for (const auto& [name, values] : parameters) {
+    const auto swept = axes.parameters.find(name);
+    if (swept != axes.parameters.end()) {
+      good &= among(place, values, swept->second, "axes.parameters." + name);
+      continue;
+    }
+    place.refuse(words(name) + ", which is not swept", names.empty() ? "no parameters here: no [axes] sweeps one"
+                                                                     : "those that [axes] sweep: " + joined(names));
+    good = false;
+  }
+  return good;
+}
+
 Where read_where(Table& t, const Case& c) {
   Where where;
   where.method = t.get("method", one_or_set_of(one_of(methods)));
@@ -383,13 +414,7 @@ Where read_where(Table& t, const Case& c) {
   among(t.place("cells"), where.cells, axes.cells, "axes.cells");
   among(t.place("courant"), where.courant, axes.courant, "axes.courant");
   among(t.place("particles"), where.particles, axes.particles, "axes.particles");
-  for (const auto& [name, values] : where.parameters) {
-    const auto swept = axes.parameters.find(name);
-    if (swept == axes.parameters.end())
-      t.place("parameters").refuse(words(name) + ", which is not swept", "parameters of the axes");
-    else
-      among(t.place("parameters"), values, swept->second, "axes.parameters." + name);
-  }
+  among_swept(t.place("parameters"), where.parameters, c);
   return where;
 }
 
@@ -456,37 +481,44 @@ FigureSpec read_figure(Table& t, const Case& c) {
     return axis.empty() ? std::decay_t<decltype(axis[0])>{} : axis[0];  // empty: the axes' own mistake
   };
   figure.cells = one_of_axis("cells", number_of_cells(), axes.cells);
+  figure.choices = t.get("choices", text());
+  figure.methods = t.get("methods", set_of(one_of(methods)), axes.method);
+  const std::size_t before = t.mistakes();
   if (const Node* courant = t.place("courant").node; courant && courant->as<Node::Entries>()) {
-    // { fem = 1.0, mpm-musl = 0.1 }: one for each method
+    // { fem = 1.0, mpm-musl = 0.1 }: one for each method that is drawn
     t.table("courant", [&](Table& each) {
+      for (const std::string& method : figure.methods)
+        figure.courants[method] = figure.courant = each.need(method, positive());
       for (const auto& entry : each.entries()) {
-        const double number = each.get(entry.key, positive());
-        if (contains(methods, entry.key))
-          figure.courants[entry.key] = figure.courant = number;
-        else
-          each.place(entry.key).refuse("no such method", joined(methods), suggestion(entry.key, methods));
+        const Place place = each.place(entry.key);
+        if (!figure.methods.empty() && !contains(figure.methods, entry.key))
+          place.refuse("a method that is not drawn", joined(figure.methods), suggestion(entry.key, figure.methods));
       }
     });
   } else {
     figure.courant = one_of_axis("courant", positive(), axes.courant);
   }
-  figure.choices = t.get("choices", text());
-  figure.methods = t.get("methods", set_of(one_of(methods)), axes.method);
   const bool one_set = t.has("particles") || axes.particles.size() == 1;
   if (one_set) figure.particles = one_of_axis("particles", particles(), axes.particles);
   if (of("range", "profiles")) figure.range = t.maybe("range", interval());
   t.maybe_table("parameters", [&](Table& p) {
-    for (const auto& [name, values] : read_values(p, c)) figure.parameters[name] = values.empty() ? 0 : values.front();
+    const auto given = read_values(p, c);
+    among_swept(t.place("parameters"), given, c);
+    for (const auto& [name, values] : given) {
+      figure.parameters[name] = values.empty() ? 0 : values.front();
+      if (values.size() > 1) p.place(name).refuse(words(values), "one value, for the runs to draw");
+    }
   });
   for (const auto& [name, values] : axes.parameters) {
     if (figure.parameters.contains(name)) continue;
     if (values.size() > 1)
-      t.place("parameters").say("missing " + words(name) + ", which is swept; allowed: one value of it, " + joined(values));
+      t.place("parameters")
+          .say("missing " + words(name) + ", which is swept; allowed: one value of it, " + joined(values));
     else
       figure.parameters[name] = values.front();
   }
 
-  bool good = figure.cells > 0 && figure.courant > 0 && !figure.particles.empty();
+  bool good = figure.cells > 0 && figure.courant > 0 && !figure.particles.empty() && t.mistakes() == before;
   if (figure.cells > 0) good &= among(t.place("cells"), std::vector{figure.cells}, axes.cells, "axes.cells");
   for (const std::string& method : figure.methods) {
     if (figure.courant_of(method) > 0)
@@ -498,12 +530,14 @@ FigureSpec read_figure(Table& t, const Case& c) {
                   "axes.particles");
   const std::vector<Leaf> runs = leaves(c);
   for (const std::string& method : figure.methods) {
-    const Leaf leaf{method, figure.cells, figure.courant_of(method), method == "fem" ? std::vector<double>{} : figure.particles,
-                    figure.parameters};
+    const Leaf leaf{method, figure.cells, figure.courant_of(method),
+                    method == "fem" ? std::vector<double>{} : figure.particles, figure.parameters};
     if (good && !runs.empty() && std::find(runs.begin(), runs.end(), leaf) == runs.end())
-      t.place("methods").refuse(fmt::format("{} with cells = {}, courant = {} and particles = {}", words(method),
-                                            leaf.cells, words(leaf.courant), words(leaf.particles)),
-                                "a run of the axes");
+      t.place("methods").refuse(
+          fmt::format("{} with cells = {}, courant = {}{}{}", words(method), leaf.cells, words(leaf.courant),
+                      leaf.particles.empty() ? "" : ", particles = " + words(leaf.particles),
+                      leaf.parameters.empty() ? "" : ", " + parameters_label(leaf.parameters)),
+          "a run of the axes");
   }
   return figure;
 }
@@ -520,19 +554,28 @@ Case read_file(Table& file) {
   c.why = file.need("why", text());
   c.units = file.need("units", one_of({"SI", "paper"}));
   file.maybe_table("paper", [&](Table& t) { c.paper_figures = t.need("figures", set_of(text())); });
-  read_bars(file, c);
+  std::size_t before = file.mistakes();
+  const std::vector<Place> velocities = read_bars(file, c);
 
   struct Block {
     Axes axes;
     Place method, courant;
   };
   std::vector<Block> blocks;
-  std::size_t before = file.mistakes();
-  file.one_or_each("axes", [&](Table& t) { blocks.push_back({read_axes(t, c), t.place("method"), t.place("courant")}); });
+  bool bars_are_read = file.mistakes() == before;
+  before = file.mistakes();
+  file.one_or_each("axes", [&](Table& t) {
+    blocks.push_back({read_axes(t, c), t.place("method"), t.place("courant")});
+  });
   if (file.mistakes() == before)  // nothing is compared with axes that are not known
     for (const Block& block : blocks) c.axes.push_back(block.axes);
-  check_bars(file.place("bar"), c);
-  file.table("sample", with(read_sample));
+  for (std::size_t b = 0; b < velocities.size(); ++b) {
+    if (check_constant(velocities[b], c.bars[b].velocity, c)) continue;
+    c.bars[b].velocity.clear();
+    bars_are_read = false;
+  }
+  if (bars_are_read) check_bars(file.place("bar"), c);
+  file.table("sample", [&](Table& t) { read_sample(t, c, bars_are_read); });
   file.table("supports", with(read_supports));
 
   before = file.mistakes();
@@ -560,11 +603,11 @@ Case read_file(Table& file) {
     c.features = t.need("features", set_of(one_of({"elastic", "plasticity", "body-force", "boundary-layer", "contact",
                                                    "convection", "viscosity"})));
     std::sort(c.features.begin(), c.features.end());
-    check_features(t.place("features"), c);
+    if (bars_are_read) check_features(t.place("features"), c);
   });
   file.maybe_table("exact", [&](Table& t) {
     read_exact(t, c);
-    if (loads_are_read) check_solution(t.place("solution"), c);
+    if (loads_are_read && bars_are_read) check_solution(t.place("solution"), c);
   });
   file.maybe_table("run", [&](Table& t) {
     c.allow_unstable = t.get("allow_unstable", flag(), false);
@@ -578,7 +621,7 @@ Case read_file(Table& file) {
   check_gates(file.place("gate"), c);
   for (const Block& block : blocks) {
     check_methods(block.method, block.axes, c);
-    if (!c.axes.empty()) check_steps(block.courant, block.axes, c);
+    if (!c.axes.empty() && bars_are_read) check_steps(block.courant, block.axes, c);
   }
   return c;
 }

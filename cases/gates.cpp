@@ -79,7 +79,8 @@ bool wanted(const GateSpec& gate, double time) {
 /// Leading-order theory of a step: asked for by name, beside the run's own prediction.
 std::optional<double> airy(const Case& c, const Run& run, const reports::FieldError& error, analytic::Quantity q,
                            analytic::Norm norm) {
-  const auto exact = make_exact(c, leaf_of(c, run));
+  const Leaf leaf = leaf_of(c, run);
+  const auto exact = make_exact(with_parameters(c, leaf), leaf);
   const double time = error.time * time_unit(c, c.time_unit);
   auto predicted = analytic::airy_step_error(*exact, discretisation(c, leaf_of(c, run), run.courant), q, norm, time);
   if (predicted) *predicted /= error.scale;

@@ -67,7 +67,7 @@ Case with_parameters(Case c, const Leaf& leaf) {
 
 std::string parameters_label(const Parameters& parameters) {
   std::string label;
-  for (const auto& [name, value] : parameters) label += fmt::format("{}{}={:g}", label.empty() ? "" : " ", name, value);
+  for (const auto& [name, value] : parameters) label += fmt::format("{}{}={}", label.empty() ? "" : " ", name, value);
   return label;
 }
 

@@ -25,9 +25,12 @@ reports::ProbeValue read_probe(const Case& c, const Leaf& leaf, const Probe& pro
                        : probe.field == "velocity" ? snapshot.velocity
                                                    : snapshot.displacement;
   const double x = length_of(c, probe.at, leaf.cells), cell = c.first().length / leaf.cells;
-  reports::ProbeValue value{probe.id, value_at(field, x), {}};
+  const std::vector<Span> bars = spans_of(c, leaf.cells);
+  std::size_t bar = bars.size() - 1;  // where two touch, the right one
+  while (bar > 0 && x < bars[bar].begin) --bar;
+  reports::ProbeValue value{probe.id, value_at(field.of_bar(bar), x), {}};
   for (const LoadSpec& load : c.loads) {
-    const bool in_end_cell = load.end == End::left ? x < cell : x > c.first().length - cell;
+    const bool in_end_cell = load.end == End::left ? x < cell : x > bars.back().end - cell;
     const bool ramp = load.history == "ramp", step = load.history == "step";
     const double steady =
         load.start.value * time_unit(c, load.start.unit) + (ramp ? load.rise.value * time_unit(c, load.rise.unit) : 0);

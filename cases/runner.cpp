@@ -155,6 +155,7 @@ void measure_bits(const Case& c, const Leaf& leaf, const Scene& scene, const Ste
   }
   if (asks_for(c, leaf, "bits.mirror")) {
     Leaf behind = leaf;
+    behind.cells = cells_of(scene, scene.bars.size() - 1, leaf.cells);  // its last bar is the first one now
     std::reverse(behind.particles.begin(), behind.particles.end());
     for (double& xi : behind.particles) xi = 1 - xi;
     compare("bits.mirror", mirrored(scene), behind, stepping, one, true);

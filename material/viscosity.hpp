@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace diptych::material {
 
@@ -16,7 +17,7 @@ struct Viscosity {
   Form form = Form::york;
   double c1 = 1, c2 = 1;              ///< ≥ 0
   double bulk = 0.75;                 ///< λ of eq. 21, a pure number there
-  double length = 1.414213562373095;  ///< g of eq. 21 in cells
+  double length = std::numbers::sqrt2;  ///< g of eq. 21 in cells
   bool always = false;                ///< also in expansion
 
   bool acts(double D) const { return D < 0 || (always && D > 0); }  // eq. 22

@@ -500,6 +500,35 @@ Grid books_grid(const Case& data, const Group& group) {
   return grid;
 }
 
+/// What came of an impact, measured / exact: empty where no bars met and nothing yielded.
+Grid outcome_grid(const Case& data, const Group& group) {
+  static constexpr std::array names{"contact.begin", "contact.early", "contact.end", "contact.duration",
+                                    "contact.restitution", "plastic.work"};
+  Grid grid;
+  grid.title = "Impact, measured / exact (" + (data.units == "SI" ? std::string("SI") : data.units + " units") + ")";
+  grid.heads = {"cells"};
+  std::vector<std::string> shown;
+  for (const char* name : names) {
+    const auto has = [&](const Run* run) { return has_numbers(*run) && run->measures.count(name) > 0; };
+    if (!std::any_of(group.runs.begin(), group.runs.end(), has)) continue;
+    shown.emplace_back(name);
+    grid.heads.emplace_back(name);
+  }
+  if (shown.empty()) return {};
+  for (const Run* run : group.runs) {
+    if (!has_numbers(*run)) continue;
+    Row row{{fmt::to_string(run->cells)}, {}};
+    for (const std::string& name : shown) {
+      const auto value = run->measures.find(name), exact_value = run->measures.find(name + ".predicted");
+      const bool known = value != run->measures.end(), predicted = exact_value != run->measures.end();
+      row.cells.push_back(!known ? "-"
+                                 : general(value->second) + " / " + (predicted ? general(exact_value->second) : "-"));
+    }
+    grid.rows.push_back(row);
+  }
+  return grid;
+}
+
 std::string text_table(const Case& data) {
   std::string out = fmt::format("{}: {}\n", data.id, data.title);
   out += fmt::format("units {}, times in {}; L1, L2, Linf are errors over the bar divided by the stated scale;\n",
@@ -508,6 +537,7 @@ std::string text_table(const Case& data) {
   for (const Group& group : groups(data)) {
     out += "== " + group_title(group) + " ==\n" + text_of(cost_grid(data, group));
     if (const Grid books = books_grid(data, group); !books.rows.empty()) out += text_of(books);
+    if (const Grid outcomes = outcome_grid(data, group); !outcomes.rows.empty()) out += text_of(outcomes);
     for (const double asked : times(group))
       for (const std::string& field : fields(group, asked)) out += text_of(error_grid(data, group, asked, field));
   }
@@ -520,6 +550,7 @@ std::string latex_table(const Case& data) {
   out += "\\subsection*{" + latex_escaped(data.id + ": " + data.title) + "}\n\n";
   for (const Group& group : groups(data)) {
     out += "\\subsubsection*{" + latex_escaped(group_title(group)) + "}\n\n" + latex_of(cost_grid(data, group));
+    if (const Grid outcomes = outcome_grid(data, group); !outcomes.rows.empty()) out += latex_of(outcomes);
     for (const double asked : times(group))
       for (const std::string& field : fields(group, asked)) out += latex_of(error_grid(data, group, asked, field));
   }

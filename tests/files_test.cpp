@@ -83,6 +83,7 @@ Case example() {
   run.method = "mpm-usf";
   run.cells = 200;
   run.particles = "0.5";
+  run.parameters = "v0=0.1";
   run.status = "completed";
   run.courant = 0.1 + 0.2;
   run.time_step_limit = 2e-6;
@@ -194,7 +195,8 @@ BOOST_AUTO_TEST_CASE(jsonl_reads_back) {
   const auto& run = lines[0];
   BOOST_TEST(run["type"] == "run");
   BOOST_TEST(run["case"] == "bar <1>");
-  BOOST_TEST(run["label"] == "mpm-usf N=200 C=0 ppc=1");
+  BOOST_TEST(run["label"] == "mpm-usf N=200 C=0 ppc=1 v0=0.1");
+  BOOST_TEST(run["parameters"] == "v0=0.1");
   BOOST_TEST(run["courant"].get<double>() == 0.1 + 0.2);
   BOOST_TEST(run["particle_steps"].get<long>() == 5000000000);
   BOOST_TEST(run["finite"] == true);

@@ -76,7 +76,7 @@ BOOST_DATA_TEST_CASE(no_load_gives_exactly_nothing, bdata::make({0, 1, 2}), whic
 BOOST_DATA_TEST_CASE(uniform_stress_in_equilibrium_stays, bdata::make({0, 1, 2}), which) {
   for (const std::vector<double>& xi : {std::vector{0.5}, {0.2113, 0.7887}, {0.1, 0.2, 0.9}, {0.0, 0.5, 1.0}}) {
     Scene scene = step_scene(3);
-    scene.initial_stress = [](double) { return 3.0; };
+    scene.bars[0].initial_stress = [](double) { return 3.0; };
     const Record r = mpm::run(scene, 7, xi, schemes[static_cast<std::size_t>(which)], steps_at(0.3, 7, 1000));
     BOOST_TEST_CONTEXT(xi.size() << " particles") {
       for (const double sigma : r.snapshots[0].stress.value) BOOST_TEST(sigma == 3.0, tt::tolerance(1e-12));
@@ -86,8 +86,8 @@ BOOST_DATA_TEST_CASE(uniform_stress_in_equilibrium_stays, bdata::make({0, 1, 2})
 
 BOOST_DATA_TEST_CASE(body_force_accelerates_a_free_bar_rigidly, bdata::make({0, 1, 2}), which) {
   Scene scene;
-  scene.length = 1;
-  scene.material = material::Elastic{1e4, 2};
+  scene.bars[0].length = 1;
+  scene.bars[0].material = material::Elastic{1e4, 2};
   scene.body_force = [](double, double) { return 5.0; };
   const Record r = mpm::run(scene, 10, {0.3, 0.6}, schemes[static_cast<std::size_t>(which)], steps_at(0.5, 10, 100));
   const auto& s = r.snapshots[0];
@@ -102,10 +102,10 @@ BOOST_DATA_TEST_CASE(body_force_accelerates_a_free_bar_rigidly, bdata::make({0, 
 // Rigid flight over many cells with particles on faces: no stress, no change of velocity, whatever the scheme.
 BOOST_DATA_TEST_CASE(rigid_flight_with_particles_on_faces, bdata::make({0, 2}), which) {
   Scene scene;
-  scene.length = 1;
-  scene.material = material::Elastic{1e4, 1};
+  scene.bars[0].length = 1;
+  scene.bars[0].material = material::Elastic{1e4, 1};
   scene.convected = true;
-  scene.initial_velocity = [](double) { return 16.0; };  // 0.08 of a cell each step: lands on faces
+  scene.bars[0].initial_velocity = [](double) { return 16.0; };  // 0.08 of a cell each step: lands on faces
   for (const std::vector<double>& xi : {std::vector{0.0}, {1.0}, {0.0, 0.5}, {0.5, 1.0}}) {
     const Record r = mpm::run(scene, 10, xi, schemes[static_cast<std::size_t>(which)], steps_at(0.5, 10, 100));
     BOOST_TEST_CONTEXT(r.message) { BOOST_REQUIRE((r.outcome == Outcome::completed)); }
@@ -116,31 +116,37 @@ BOOST_DATA_TEST_CASE(rigid_flight_with_particles_on_faces, bdata::make({0, 2}), 
 
 BOOST_AUTO_TEST_CASE(a_bar_that_flies_off_the_grid_is_told) {
   Scene scene;
-  scene.length = 1;
-  scene.material = material::Elastic{1e4, 1};
+  scene.bars[0].length = 1;
+  scene.bars[0].material = material::Elastic{1e4, 1};
   scene.convected = true;
-  scene.initial_velocity = [](double) { return 50.0; };
+  scene.bars[0].initial_velocity = [](double) { return 50.0; };
   const Record r = mpm::run(scene, 10, {0.5}, Scheme::musl, steps_at(0.5, 10, 1000));
   BOOST_TEST((r.outcome == Outcome::left_grid));
   BOOST_TEST(r.message.find("left the grid") != std::string::npos);
 }
 
-// A bar pressed against a wall for long: particles approach the wall's node and never stop the run.
+// A bar pressed against a wall for long: particles approach the wall's node and never stop the run. Viscosity keeps down
+// the noise of crossing cells, which would blow it up.
 BOOST_AUTO_TEST_CASE(particles_against_a_wall_never_stop_the_run) {
   Scene scene = step_scene(-500);  // a twentieth of the modulus, compression
   scene.convected = true;
-  const Record r = mpm::run(scene, 20, {0.0}, Scheme::musl, steps_at(0.4, 20, 2000));
-  BOOST_TEST_CONTEXT(r.message) { BOOST_TEST((r.outcome == Outcome::completed)); }
+  scene.viscosity = material::Viscosity{};
+  for (const std::vector<double>& xi : {std::vector{0.0}, {0.0, 0.5}, {0.1}}) {
+    const Record r = mpm::run(scene, 20, xi, Scheme::musl, steps_at(0.4, 20, 2000));
+    BOOST_TEST_CONTEXT(r.message) { BOOST_REQUIRE((r.outcome == Outcome::completed)); }
+    BOOST_TEST(r.snapshots[0].displacement.value.back() < 0);
+    for (const double u : r.snapshots[0].displacement.value) BOOST_TEST(u > -0.15);  // twice the equilibrium of 0.05, and what rings
+  }
 }
 
 // Mass and length follow the particles: a bar stretched over twice as many cells holds the same mass and stress
 // balance.
 BOOST_AUTO_TEST_CASE(momentum_is_conserved_while_particles_cross_cells) {
   Scene scene;
-  scene.length = 1;
-  scene.material = material::Elastic{1e4, 1};
+  scene.bars[0].length = 1;
+  scene.bars[0].material = material::Elastic{1e4, 1};
   scene.convected = true;
-  scene.initial_velocity = [](double x) { return 10 * x; };
+  scene.bars[0].initial_velocity = [](double x) { return 10 * x; };
   const Record r = mpm::run(scene, 20, {0.25, 0.75}, Scheme::musl, steps_at(0.4, 20, 500));
   BOOST_REQUIRE((r.outcome == Outcome::completed));
   const double start = r.ledger.front().momentum;
@@ -152,7 +158,7 @@ BOOST_AUTO_TEST_CASE(features_that_are_off_leave_the_bits_alone_and_take_no_memo
   Scene with_null_force = plain;
   with_null_force.body_force = [](double, double) { return 0.0; };
   Scene never_yields = plain;
-  never_yields.material = material::Hardening{1e4, 1, 2500, 1e300};
+  never_yields.bars[0].material = material::Hardening{1e4, 1, 2500, 1e300};
   Scene moving = plain;
   moving.convected = true;
   const auto go = [](const Scene& s) { return mpm::run(s, 50, {0.25, 0.75}, Scheme::musl, steps_at(0.7, 50, 300)); };
@@ -189,14 +195,18 @@ BOOST_AUTO_TEST_CASE(one_particle_body_and_one_cell_run) {
 BOOST_AUTO_TEST_CASE(usl_loses_energy_and_the_others_do_not) {
   Scene scene = step_scene(0);
   scene.loads.clear();
-  scene.initial_velocity = [](double x) { return std::sin(7.853981633974483 * x); };
-  const auto lost = [&](Scheme s) {
+  scene.bars[0].initial_velocity = [](double x) { return std::sin(7.853981633974483 * x); };
+  const auto taken = [&](Scheme s) {
     const Record r = mpm::run(scene, 50, {0.5}, s, steps_at(0.5, 50, 400));
-    return r.ledger.back().lost / r.ledger.front().kinetic;
+    const LedgerLine &first = r.ledger.front(), &last = r.ledger.back();
+    BOOST_TEST(std::abs(last.lost) < 1e-13 * first.kinetic);
+    const double gone = first.kinetic + first.strain - last.kinetic - last.strain;
+    BOOST_TEST(std::abs(gone - last.scheme) < 1e-13 * first.kinetic);
+    return last.scheme / first.kinetic;
   };
-  BOOST_TEST(std::abs(lost(Scheme::usf)) < 1e-13);
-  BOOST_TEST(std::abs(lost(Scheme::musl)) < 1e-13);
-  BOOST_TEST(lost(Scheme::usl) > 1e-4);
+  BOOST_TEST(taken(Scheme::usf) == 0.0);
+  BOOST_TEST(taken(Scheme::musl) == 0.0);
+  BOOST_TEST(taken(Scheme::usl) > 1e-4);
 }
 
 // The two derivations of the limits, here and in analytic/, agree for any positions.
@@ -221,16 +231,16 @@ BOOST_AUTO_TEST_CASE(critical_time_steps_are_those_of_theory_for_any_positions) 
   }
 }
 
-// A bar almost without stiffness, pulled apart by its own velocity v = Vx: x = X(1 + Vt), strain ln(1 + Vt), and the
-// wall takes the impulse ∫σ dt. A bar whose particles stay behind would strain by Vt; one whose particles kept their
-// length would press on the wall with σ/(1 + Vt).
+// A bar almost without stiffness, pulled apart by its own velocity v = Vx: x = X(1 + Vt), strain of the reference
+// configuration Vt, as in FEM, and the wall takes the impulse ∫σ dt = E V t²/2. Strain of the present configuration would
+// be ln(1 + Vt), 19 % less here, and particles that kept their length would press on the wall with σ/(1 + Vt).
 BOOST_DATA_TEST_CASE(a_bar_that_is_pulled_apart_moves_stretches_and_thins, bdata::make({0, 1, 2}), which) {
   Scene scene;
-  scene.length = 1;
-  scene.material = material::Elastic{1e-6, 1};
+  scene.bars[0].length = 1;
+  scene.bars[0].material = material::Elastic{1e-6, 1};
   scene.left = Support::fixed;
   scene.convected = true;
-  scene.initial_velocity = [](double x) { return x; };
+  scene.bars[0].initial_velocity = [](double x) { return x; };
   Stepping stepping;
   stepping.books = Books::lines;
   stepping.time_step = 0.002;
@@ -242,9 +252,9 @@ BOOST_DATA_TEST_CASE(a_bar_that_is_pulled_apart_moves_stretches_and_thins, bdata
   const auto& stress = r.snapshots[0].stress;
   const double mean =
       std::accumulate(stress.value.begin(), stress.value.end(), 0.0) / static_cast<double>(stress.value.size());
-  BOOST_TEST(mean == 1e-6 * std::log1p(stress.time), tt::tolerance(0.02));
+  BOOST_TEST(mean == 1e-6 * stress.time, tt::tolerance(0.02));
   const LedgerLine &first = r.ledger.front(), &last = r.ledger.back();
-  const auto impulse = [](double t) { return (1 + t) * std::log1p(t) - t; };
+  const auto impulse = [](double t) { return t * t / 2; };
   BOOST_TEST(first.momentum - last.momentum == 1e-6 * (impulse(last.time) - impulse(first.time)), tt::tolerance(0.05));
   BOOST_TEST(std::abs(last.momentum - last.impulse) < 1e-14);
 }
@@ -252,10 +262,10 @@ BOOST_DATA_TEST_CASE(a_bar_that_is_pulled_apart_moves_stretches_and_thins, bdata
 // A body force is a field in space: the bar meets it where it is and not where it started.
 BOOST_AUTO_TEST_CASE(body_force_acts_where_the_particle_is) {
   Scene scene;
-  scene.length = 1;
-  scene.material = material::Elastic{1e-6, 1};
+  scene.bars[0].length = 1;
+  scene.bars[0].material = material::Elastic{1e-6, 1};
   scene.convected = true;
-  scene.initial_velocity = [](double) { return 1.0; };
+  scene.bars[0].initial_velocity = [](double) { return 1.0; };
   scene.body_force = [](double x, double) { return x > 1.25 ? 1e-3 : 0.0; };
   Stepping stepping;
   stepping.books = Books::lines;
@@ -270,10 +280,10 @@ BOOST_AUTO_TEST_CASE(body_force_acts_where_the_particle_is) {
 // Tractions stay with the ends of a bar that flies: a step that begins after it crossed some cells sends in its wave.
 BOOST_DATA_TEST_CASE(tractions_follow_the_ends, bdata::make({false, true}), in_layer) {
   Scene scene;
-  scene.length = 1;
-  scene.material = material::Elastic{1e4, 1};
+  scene.bars[0].length = 1;
+  scene.bars[0].material = material::Elastic{1e4, 1};
   scene.convected = true;
-  scene.initial_velocity = [](double) { return 10.0; };
+  scene.bars[0].initial_velocity = [](double) { return 10.0; };
   for (const End end : {End::left, End::right}) {
     Load load;
     load.end = end;
@@ -298,10 +308,10 @@ BOOST_DATA_TEST_CASE(tractions_follow_the_ends, bdata::make({false, true}), in_l
 
 BOOST_AUTO_TEST_CASE(particles_that_pass_one_another_are_told) {
   Scene scene;
-  scene.length = 1;
-  scene.material = material::Elastic{1e-6, 1};
+  scene.bars[0].length = 1;
+  scene.bars[0].material = material::Elastic{1e-6, 1};
   scene.convected = true;
-  scene.initial_velocity = [](double x) { return x < 0.5 ? 1.0 : -1.0; };
+  scene.bars[0].initial_velocity = [](double x) { return x < 0.5 ? 1.0 : -1.0; };
   Stepping stepping;
   stepping.books = Books::lines;
   stepping.time_step = 0.3;  // neighbours that close in by more than their distance in one step
@@ -343,13 +353,15 @@ BOOST_AUTO_TEST_CASE(boundary_layer_that_ends_within_a_particle_by_hand) {
 
 BOOST_DATA_TEST_CASE(the_books_close_with_plasticity, bdata::make({0, 2}), which) {
   Scene scene = step_scene(100);
-  scene.material = material::Hardening{1e4, 1, 2500, 75};
+  scene.bars[0].material = material::Hardening{1e4, 1, 2500, 75};
   const Record r =
       mpm::run(scene, 100, {0.25, 0.75}, schemes[static_cast<std::size_t>(which)], steps_at(0.9, 100, 400));
   BOOST_TEST(r.features == std::vector<std::string>{"plasticity"}, tt::per_element());
   const LedgerLine& last = r.ledger.back();
   BOOST_TEST(last.dissipated > 0.1 * last.work);
-  BOOST_TEST(std::abs(last.lost) < 0.01 * last.work);
+  BOOST_TEST(last.scheme != 0.0);
+  BOOST_TEST(std::abs(last.scheme) < 0.01 * last.work);
+  for (const LedgerLine& line : r.ledger) BOOST_TEST_REQUIRE(std::abs(line.lost) < 1e-12 * last.work);
   BOOST_TEST(std::abs(last.momentum - last.impulse) < 1e-12);
 }
 

@@ -60,7 +60,7 @@ BOOST_AUTO_TEST_CASE(a_step_above_the_limit_is_refused_with_both_numbers) {
 
 BOOST_AUTO_TEST_CASE(the_step_count_is_rounded_up_and_never_to_nearest) {
   Case c = by_id("bar.step.free-free");
-  c.axes = {{{"fem"}, {100}, {0.9}, {{0.5}}}};
+  c.axes = {{{"fem"}, {100}, {0.9}, {{0.5}}, {}}};
   c.times = {1.0};
   c.gates.clear();
   const auto run = run_leaf(c, leaves(c).at(0));

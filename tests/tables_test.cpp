@@ -238,6 +238,38 @@ BOOST_AUTO_TEST_CASE(groups_and_own_time_levels) {
   BOOST_TEST(has(table, "particle-steps"));
 }
 
+// Runs with another value of a swept parameter are no refinement of each other.
+BOOST_AUTO_TEST_CASE(swept_parameters_have_tables_of_their_own) {
+  Case data = example();
+  for (Run& r : data.runs) r.parameters = "v0=1";
+  for (int cells : {10, 20}) {
+    Run r = run(cells);
+    r.parameters = "v0=2";
+    for (FieldError& e : r.samples[0].errors) e.l1 *= 3;
+    data.runs.push_back(r);
+  }
+  const std::string table = text_table(data);
+  const std::string heading = "== fem, v0=1, Courant number 0.5 asked ==", other = "== fem, v0=2, Courant number 0.5 asked ==";
+  BOOST_REQUIRE(has(table, heading));
+  BOOST_REQUIRE(has(table, other));
+  BOOST_TEST(words(row(table, "stress", "20"))[4] == "2.000");
+  BOOST_TEST(words(row(table.substr(table.find(other)), "stress", "20"))[4] == "2.000");
+  const auto rows = lines(csv_table(data));
+  BOOST_TEST_REQUIRE(rows.size() == 11U);
+  BOOST_TEST(cells(rows[1])[3] == "v0=1");
+  BOOST_TEST(cells(rows[10])[3] == "v0=2");
+}
+
+BOOST_AUTO_TEST_CASE(every_entry_of_the_ledger_has_a_column) {
+  Run r = run(10);
+  r.ledger = {{0.5, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10}, {1.5, 0.1 + 0.2, 0, 0, 0, 0, 0, 0, 0, 0, -1}};
+  const auto rows = lines(ledger_csv(r));
+  BOOST_TEST_REQUIRE(rows.size() == 3U);
+  BOOST_TEST(rows[0] == "time,kinetic,strain,dissipated,viscous,contact,scheme,work,lost,momentum,impulse");
+  BOOST_TEST(rows[1] == "0.5,1,2,3,4,5,6,7,8,9,10");
+  BOOST_TEST(rows[2] == "1.5,0.30000000000000004,0,0,0,0,0,0,0,0,-1");
+}
+
 BOOST_AUTO_TEST_CASE(csv_is_long_and_exact) {
   Case data = example();
   data.runs[0].samples[0].errors[0].l1 = 0.1 + 0.2;
@@ -246,7 +278,9 @@ BOOST_AUTO_TEST_CASE(csv_is_long_and_exact) {
   BOOST_TEST_REQUIRE(rows.size() == 7U);  // header, 3 runs × 2 fields
   const auto head = cells(rows[0]), first = cells(rows[1]);
   BOOST_TEST(head.size() == first.size());
-  BOOST_TEST(head[4] == "h [m]");
+  BOOST_TEST(head[3] == "parameters");
+  BOOST_TEST(first[3].empty());
+  BOOST_TEST(head[5] == "h [m]");
   BOOST_TEST(has(rows[0], "time asked [L/c],time reached [L/c]"));
   BOOST_TEST(has(rows[3], "\"said \"\"a, b\"\"\""));
   BOOST_TEST(has(rows[3], "0.30000000000000004"));
@@ -277,6 +311,11 @@ BOOST_AUTO_TEST_CASE(labels_verdicts_and_headroom) {
   BOOST_TEST(r.label() == "mpm-musl N=200 C=0.5 ppc=2");
   r.particles = "0.3";
   BOOST_TEST(r.label() == "mpm-musl N=200 C=0.5 ppc=1@0.3");
+  r.parameters = "v0=0.1";
+  BOOST_TEST(r.label() == "mpm-musl N=200 C=0.5 ppc=1@0.3 v0=0.1");
+  r.particles = "";
+  r.method = "fem";
+  BOOST_TEST(r.label() == "fem N=200 C=0.5 v0=0.1");
   BOOST_TEST(to_string(Verdict::unstable) == "UNSTABLE");
 
   const auto headroom = [](double judged, double low, double high, bool passed) {
