@@ -1,5 +1,7 @@
 #include "cases/build.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -175,6 +177,22 @@ std::vector<analytic::Front> CloserBars::fronts(double t) const {
     front.position += shifts_[bar];
   }
   return found;
+}
+
+std::string words_of(const BarSpec& bar) {
+  std::string text = fmt::format("E = {:g}, ρ = {:g}, L = {:g}", material::youngs_modulus(bar.material),
+                                 material::density(bar.material), bar.length);
+  if (const auto* law = std::get_if<material::Hardening>(&bar.material))
+    text += fmt::format(", E_t = {:g}, yield stress {:g}", law->tangent_modulus, law->yield_stress);
+  return text;
+}
+
+std::string words_of(const material::Viscosity& v) {
+  const std::string constants = fmt::format("c1 = {:g}, c2 = {:g}", v.c1, v.c2);
+  return (v.form == material::Viscosity::Form::york
+              ? fmt::format("of eq. 21: {}, λ = {:g}, g = {:g} cells", constants, v.bulk, v.length)
+              : "ρ(c1 c h|D| + c2 h²D²): " + constants) +
+         (v.always ? ", also in expansion" : "");
 }
 
 double velocity_of(const Case& c, std::size_t bar) {

@@ -15,6 +15,9 @@ namespace diptych::cases {
 
 /// Case units per unit of time as written: 1 for "s", L/c for "L/c" [s].
 double time_unit(const Case&, const std::string& unit);
+/// "E = 10000, ρ = 1, L = 0.5": a bar's own numbers, for people.
+std::string words_of(const BarSpec&);
+std::string words_of(const material::Viscosity&);
 /// Velocity of a bar at the start [m/s].
 double velocity_of(const Case&, std::size_t bar);
 /// Where the bars begin, on a grid of `cells` in the first one [m].

@@ -186,6 +186,7 @@ Rule<std::string> constant_formula() {
 void read_bar(Table& t, Case& c, const std::optional<material::Material>& common, std::vector<Place>& velocities) {
   BarSpec bar;
   bar.length = t.need("length", positive());
+  if (t.has("displacements")) t.place("displacements").say("found it in [bar]; allowed: in [model], for all bars");
   if (t.has("material"))
     t.table("material", [&](Table& m) { bar.material = read_material(m); });
   else if (common)

@@ -11,6 +11,7 @@
 #include <set>
 #include <thread>
 
+#include "cases/build.hpp"
 #include "cases/case_file.hpp"
 #include "cases/catalogue.hpp"
 #include "cases/figures.hpp"
@@ -264,10 +265,17 @@ int show_command(const Options& options) {
     const auto end_text = [](Support s) { return s == Support::fixed ? "fixed" : "free"; };
     fmt::print("{}: {}\n  file       {}\n  claim      {}\n  why        {}\n", c.id, c.title, c.path.string(), c.claim,
                c.why);
-    fmt::print("  bar        length {:g}, E {:g}, rho {:g}, wave speed {:g} ({} units), {}–{}, {} displacements\n",
-               c.first().length, material::youngs_modulus(c.first().material), material::density(c.first().material),
-               material::wave_speed(c.first().material), c.units, end_text(c.left), end_text(c.right),
+    for (std::size_t b = 0; b < c.bars.size(); ++b) {
+      const BarSpec& bar = c.bars[b];
+      fmt::print("  bar        {}, wave speed {:g}{}{}\n", words_of(bar), material::wave_speed(bar.material),
+                 b == 0 ? "" : fmt::format(", after a gap of {:g} {}", bar.gap.value, bar.gap.unit),
+                 bar.velocity.empty() ? "" : ", velocity " + bar.velocity);
+    }
+    fmt::print("  all        {} units, {}–{}, {} displacements\n", c.units, end_text(c.left), end_text(c.right),
                c.convected ? "finite" : "infinitesimal");
+    for (const auto& [name, value] : c.parameters) fmt::print("  parameter  {} = {:g}\n", name, value);
+    if (c.viscosity) fmt::print("  viscosity  {}\n", words_of(viscosity_of(c)));
+    if (c.contact == Contact::bonded) fmt::print("  contact    bonded (FEM)\n");
     for (const LoadSpec& load : c.loads) {
       fmt::print("  load       {}{} on the {} end, {}, through the {}\n", load.history, timing(load),
                  load.end == End::left ? "left" : "right",
@@ -281,12 +289,13 @@ int show_command(const Options& options) {
       fmt::print("  exact      stress {}; velocity {}; displacement {}\n", c.exact.stress, c.exact.velocity,
                  c.exact.displacement);
     }
-    fmt::print("  exact      {}\n  features   {}\n  sampled    t = {} {}\n", c.exact.solution,
-               fmt::join(c.features, ", "), fmt::join(c.times, ", "), c.time_unit);
+    fmt::print("  exact      {}\n  features   {}\n  sampled    t = {} {}{}\n", c.exact.solution,
+               fmt::join(c.features, ", "), fmt::join(c.times, ", "), c.time_unit, c.from_contact ? " from contact" : "");
     fmt::print("  runs       {}\n", leaves(c).size());
     for (const Leaf& leaf : leaves(c)) {
-      fmt::print("             {} {} cells, Courant {:g}{}\n", leaf.method, leaf.cells, leaf.courant,
-                 leaf.particles.empty() ? "" : ", particles at " + particles_label(leaf.particles));
+      fmt::print("             {} {} cells, Courant {:g}{}{}\n", leaf.method, leaf.cells, leaf.courant,
+                 leaf.particles.empty() ? "" : ", particles at " + particles_label(leaf.particles),
+                 leaf.parameters.empty() ? "" : ", " + parameters_label(leaf.parameters));
     }
     for (const Probe& probe : c.probes) {
       fmt::print("  probe      {} {} at {:g} {}\n", probe.id, probe.field, probe.at.value, probe.at.unit);

@@ -47,17 +47,7 @@ std::string length_unit(const Case& c) { return c.units == "paper" ? "paper's un
 std::string name_of(const std::string& method) { return method == "fem" ? "FEM" : "MPM, " + upper(method.substr(4)); }
 std::string kind_of(const std::string& method) { return method == "fem" ? "fem" : "mpm"; }
 
-std::string words_of(const BarSpec& bar) {
-  std::string text = fmt::format("E = {:g}, ρ = {:g}, L = {:g}", material::youngs_modulus(bar.material),
-                                 material::density(bar.material), bar.length);
-  if (const auto* law = std::get_if<material::Hardening>(&bar.material))
-    text += fmt::format(", E_t = {:g}, yield stress {:g}", law->tangent_modulus, law->yield_stress);
-  return text;
-}
-
-bool same(const BarSpec& a, const BarSpec& b) {
-  return words_of(a) == words_of(b);
-}
+bool same(const BarSpec& a, const BarSpec& b) { return words_of(a) == words_of(b); }
 
 /// Parameters under the title: of the runs, of the bars, and which of them the paper leaves open.
 std::vector<std::string> notes_of(const Case& c, const FigureSpec& spec) {
@@ -87,11 +77,7 @@ std::vector<std::string> notes_of(const Case& c, const FigureSpec& spec) {
     notes.push_back(fmt::format("Velocities at the start {}.{}", velocities, !mpm || !c.from_contact || spec.kind == "motion" ? "" :
                     " Each method's times count from its own contact: MPM's bars touch as soon as they share a node."));
   if (c.viscosity) {
-    const material::Viscosity v = viscosity_of(c);
-    notes.push_back(v.form == material::Viscosity::Form::york
-                        ? fmt::format("Artificial viscosity of eq. 21: c1 = {:g}, c2 = {:g}, λ = {:g}, g = {:g} cells", v.c1,
-                                      v.c2, v.bulk, v.length)
-                        : fmt::format("Artificial viscosity ρ(c1 c h|D| + c2 h²D²): c1 = {:g}, c2 = {:g}", v.c1, v.c2));
+    notes.push_back("Artificial viscosity " + words_of(viscosity_of(c)));
   }
   if (!c.paper_figures.empty() && !spec.choices.empty()) notes.push_back("Reconstructed parameters: " + spec.choices);
   if (!c.paper_figures.empty() && spec.choices.empty())

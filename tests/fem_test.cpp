@@ -121,7 +121,8 @@ BOOST_AUTO_TEST_CASE(what_the_method_has_not_is_refused) {
   BOOST_CHECK_THROW(fem::run(layer, 10, steps_at(0.5, 10, 1)), std::invalid_argument);
 }
 
-// The mesh goes with the bar, whose strains are those of the reference configuration: to FEM a moving scene is no other.
+// The mesh goes with the bar, whose strains are those of the reference configuration: to FEM a moving scene is no
+// other.
 BOOST_AUTO_TEST_CASE(a_moving_scene_has_the_bits_of_a_still_one) {
   Scene still = step_scene(50), moving = still;
   moving.convected = true;

@@ -125,8 +125,8 @@ BOOST_AUTO_TEST_CASE(a_bar_that_flies_off_the_grid_is_told) {
   BOOST_TEST(r.message.find("left the grid") != std::string::npos);
 }
 
-// A bar pressed against a wall for long: particles approach the wall's node and never stop the run. Viscosity keeps down
-// the noise of crossing cells, which would blow it up.
+// A bar pressed against a wall for long: particles approach the wall's node and never stop the run. Viscosity keeps
+// down the noise of crossing cells, which would blow it up.
 BOOST_AUTO_TEST_CASE(particles_against_a_wall_never_stop_the_run) {
   Scene scene = step_scene(-500);  // a twentieth of the modulus, compression
   scene.convected = true;
@@ -135,7 +135,8 @@ BOOST_AUTO_TEST_CASE(particles_against_a_wall_never_stop_the_run) {
     const Record r = mpm::run(scene, 20, xi, Scheme::musl, steps_at(0.4, 20, 2000));
     BOOST_TEST_CONTEXT(r.message) { BOOST_REQUIRE((r.outcome == Outcome::completed)); }
     BOOST_TEST(r.snapshots[0].displacement.value.back() < 0);
-    for (const double u : r.snapshots[0].displacement.value) BOOST_TEST(u > -0.15);  // twice the equilibrium of 0.05, and what rings
+    for (const double u : r.snapshots[0].displacement.value)
+      BOOST_TEST(u > -0.15);  // twice the equilibrium of 0.05, and what rings
   }
 }
 
@@ -232,8 +233,8 @@ BOOST_AUTO_TEST_CASE(critical_time_steps_are_those_of_theory_for_any_positions) 
 }
 
 // A bar almost without stiffness, pulled apart by its own velocity v = Vx: x = X(1 + Vt), strain of the reference
-// configuration Vt, as in FEM, and the wall takes the impulse ∫σ dt = E V t²/2. Strain of the present configuration would
-// be ln(1 + Vt), 19 % less here, and particles that kept their length would press on the wall with σ/(1 + Vt).
+// configuration Vt, as in FEM, and the wall takes the impulse ∫σ dt = E V t²/2. Strain of the present configuration
+// would be ln(1 + Vt), 19 % less here, and particles that kept their length would press on the wall with σ/(1 + Vt).
 BOOST_DATA_TEST_CASE(a_bar_that_is_pulled_apart_moves_stretches_and_thins, bdata::make({0, 1, 2}), which) {
   Scene scene;
   scene.bars[0].length = 1;

@@ -128,7 +128,7 @@ mutant(fem-damping FILE fem/bar.cpp
   KILLS bar.step.fixed-free/fem-magic-step bar.step.fixed-free/fem-constant bar.step.fixed-free/energy
         bar.step.fixed-free/momentum bar.energy/shadow-energy bar.body-force/energy bar.body-force/momentum
         bar.step.free-free/energy bar.impulse.free-free/energy
-        bar.initial-state/momentum viscosity.tension/energy)
+        bar.initial-state/momentum viscosity.tension/energy impact.convergence/fem-restitution)
 mutant(mpm-damping FILE mpm/bar.cpp
   FIND    "velocity_[p] += kick * ("
   REPLACE "velocity_[p] = 0.99999 * velocity_[p] + kick * ("
@@ -362,8 +362,8 @@ mutant(mpm-bars-askew FILE mpm/bar.cpp
   KILLS impact.gap/alone)
 mutant(mpm-strain-of-the-moment FILE mpm/bar.cpp
   FIND    "if constexpr (convected) strain_increment *= stretch_[p];"
-  REPLACE "if constexpr (convected) strain_increment *= (1 + stretch_[p]) / 2;"
-  KILLS impact.near-sonic-mpm/stress impact.near-sonic-mpm/energy)
+  REPLACE "if constexpr (convected) strain_increment *= (1 + 9 * stretch_[p]) / 10;"
+  KILLS impact.near-sonic-mpm/stress)
 mutant(mpm-remapping-takes-no-energy FILE mpm/bar.cpp
   FIND    "ledger->take_by_scheme(-(dt_ * power / 2 + half_work_));"
   REPLACE "ledger->take_by_scheme(0 * power);"
@@ -371,9 +371,21 @@ mutant(mpm-remapping-takes-no-energy FILE mpm/bar.cpp
 mutant(mpm-flight-is-damped FILE mpm/bar.cpp
   FIND    "velocity_[p] += kick * ("
   REPLACE "velocity_[p] = 0.9 * velocity_[p] + kick * ("
-  KILLS impact.one-particle/restitution impact.one-particle/momentum impact.near-sonic-mpm/restitution
-        impact.gap-not-of-cells/momentum impact.gap-not-of-cells/energy impact.fraction-of-a-cell/momentum
-        impact.fraction-of-a-cell/energy impact.gap/energy)
+  KILLS impact.one-particle/restitution impact.near-sonic-mpm/restitution impact.near-sonic-mpm/energy
+        impact.gap-not-of-cells/energy impact.fraction-of-a-cell/energy)
+mutant(mpm-slows-a-particle FILE mpm/bar.cpp
+  FIND    "velocity_[p] += kick * ("
+  REPLACE "velocity_[p] = (p == 0 ? 0.9999 : 1.0) * velocity_[p] + kick * ("
+  KILLS impact.one-particle/momentum impact.gap-not-of-cells/momentum impact.fraction-of-a-cell/momentum
+        impact.gap/energy)
+mutant(mpm-reports-a-stress-beside-its-own FILE mpm/bar.cpp
+  FIND    "s.stress.value.push_back(state.stress);"
+  REPLACE "s.stress.value.push_back(state.stress + 0.05);"
+  KILLS impact.convergence/mpm-stress-after-release)
+mutant(mpm-slows-in-flight FILE mpm/bar.cpp
+  FIND    "velocity_[p] += kick * ("
+  REPLACE "velocity_[p] = 0.999999 * velocity_[p] + kick * ("
+  KILLS impact.convergence/mpm-velocity-after-release)
 mutant(mpm-load-a-tenth-off FILE mpm/bar.cpp
   FIND    "load.mean_traction(kick.from, kick.to)"
   REPLACE "0.9 * load.mean_traction(kick.from, kick.to)"
@@ -384,10 +396,9 @@ mutant(modulus-a-tenth-off FILE material/material.hpp
   REPLACE "state.stress += 1.1 * youngs_modulus * strain_increment"
   KILLS impact.within-a-step/stress impact.convergence/fem-stress-l1 impact.convergence/fem-velocity-l1
         impact.convergence/fem-stress-l2
-        impact.convergence/fem-velocity-l2 impact.convergence/fem-restitution
+        impact.convergence/fem-velocity-l2
         impact.convergence/mpm-stress-l1 impact.convergence/mpm-stress-l2 impact.convergence/mpm-velocity-l1
-        impact.convergence/mpm-velocity-l2 impact.convergence/displacement-l2
-        impact.convergence/mpm-stress-after-release impact.convergence/mpm-velocity-after-release)
+        impact.convergence/mpm-velocity-l2 impact.convergence/displacement-l2)
 mutant(yield-a-hundredth-high FILE material/material.hpp
   FIND    "const double yield = yield_stress + state.hardened;"
   REPLACE "const double yield = 1.01 * yield_stress + state.hardened;"
@@ -405,9 +416,14 @@ mutant(plastic-without-unloading FILE material/material.hpp
   FIND    "    if (excess <= 0) {"
   REPLACE "    if (excess <= 0 && state.hardened > 0) return {state.stress, stored(state), 0, elastic_wave_speed()};
     if (excess <= 0) {"
+  KILLS impact.hardening-convergence/restitution)
+mutant(plastic-unloads-softly FILE material/material.hpp
+  FIND    "    if (excess <= 0) {
+      state.stress = trial;"
+  REPLACE "    if (excess <= 0) {
+      state.stress = state.hardened > 0 ? state.stress + 0.8 * youngs_modulus * strain_increment : trial;"
   KILLS impact.hardening-convergence/fem-stress impact.hardening-convergence/fem-velocity
-        impact.hardening-convergence/mpm-stress impact.hardening-convergence/mpm-velocity
-        impact.hardening-convergence/restitution)
+        impact.hardening-convergence/mpm-stress impact.hardening-convergence/mpm-velocity)
 mutant(plastic-tangent-for-the-plastic-modulus FILE material/material.hpp
   FIND    "return youngs_modulus * tangent_modulus / (youngs_modulus - tangent_modulus);"
   REPLACE "return tangent_modulus;"

@@ -249,7 +249,8 @@ BOOST_AUTO_TEST_CASE(swept_parameters_have_tables_of_their_own) {
     data.runs.push_back(r);
   }
   const std::string table = text_table(data);
-  const std::string heading = "== fem, v0=1, Courant number 0.5 asked ==", other = "== fem, v0=2, Courant number 0.5 asked ==";
+  const std::string heading = "== fem, v0=1, Courant number 0.5 asked ==",
+                    other = "== fem, v0=2, Courant number 0.5 asked ==";
   BOOST_REQUIRE(has(table, heading));
   BOOST_REQUIRE(has(table, other));
   BOOST_TEST(words(row(table, "stress", "20"))[4] == "2.000");
