@@ -43,7 +43,7 @@ class Pair {
       }
     } else if (needed > 0) {
       touching_ = closed_ = true;
-      const double predicted = gap - step * (closing - kick * softness * carried);  // without contact, after this step
+      const double predicted = gap - step * (closing + kick * softness * carried);  // without contact, after this step
       share_of_step_ = gap > predicted ? std::clamp(gap / (gap - predicted), 0.0, 1.0) : 0;
     } else {
       force_ = 0;

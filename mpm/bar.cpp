@@ -715,6 +715,10 @@ Record run(const Scene& scene, int cells, const std::vector<double>& positions, 
     if (std::abs(size - cells_of(scene, b, cells)) > 1e-9 * size)
       throw std::invalid_argument("mpm: bar " + std::to_string(b + 1) + " is not a whole number of cells long");
   }
+  const double span = (scene.end() - scene.begin()) / (scene.bars[0].length / cells);
+  if (scene.right == Support::fixed && std::abs(span - std::round(span)) > 1e-9 * span)
+    throw std::invalid_argument("mpm: a wall at the right end must stand on a face of the grid, a whole number of cells "
+                                "from the left end of the first bar");
   const auto go = [&]<Carries carries, bool viscous>(const auto& laws) {
     using Law = typename std::decay_t<decltype(laws)>::value_type;
     Bars<Law, carries, viscous> bars(scene, laws, cells, positions, scheme, stepping);

@@ -24,7 +24,8 @@ double critical_time_step(const Scene&, int cells, const std::vector<double>& po
 /// stress and displacement stand at the step's time and velocity half a step before it; with USF velocity stands at the
 /// step's time, stress half a step before and displacement half a step after it. Strains are those of the reference
 /// configuration, as in FEM.
-/// Throws std::invalid_argument where a bar is not a whole number of cells long.
+/// Throws std::invalid_argument where a bar is not a whole number of cells long, or a wall at the right end is not a whole
+/// number of cells from the left end of the first bar.
 Record run(const Scene&, int cells, const std::vector<double>& positions, Scheme, const Stepping&);
 
 }  // namespace diptych::mpm

@@ -840,7 +840,7 @@ BOOST_AUTO_TEST_CASE(bars_of_a_row) {
   expect_alone(replaced(row, "cells = [20, 40, 80]", "cells = [20, 25, 80]"), "[[bar]]",
                {"bar 2", "12.5 cells", "first bar has 25"});
   wrong("length = 1.0", "displacements = \"finite\"\nlength = 1.0",
-        {"bar.displacements", "unknown key", "gap, length, material, velocity"});
+        {"bar.displacements", "found it in [bar]", "in [model]"});
   const std::string one = replaced(row, "[[bar]]\nlength = 0.5", "[bar]\nlength = 0.5");
   expect(one, "", {"not TOML"});
   expect(replaced(whole, "[bar]\nlength = 1.0\n", "bar = 3\n"), "", {"bar"});

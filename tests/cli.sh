@@ -77,7 +77,7 @@ expect 0 'DIPTYCH-VERDICT PASS' "$program" gate own.toml
 expect 0 'own/close: PASS' "$program" explain own.toml/close
 expect 14 "did you mean 'close'" "$program" gate own.toml/clos
 expect 0 'ledgers/own' "$program" run own.toml --ledger --out results
-expect 0 '^time,kinetic,strain,dissipated,work,lost,momentum,impulse' sh -c 'cat results/ledgers/own/fem*.csv'
+expect 0 '^time,kinetic,strain,dissipated,viscous,contact,scheme,work,lost,momentum,impulse' sh -c 'cat results/ledgers/own/fem*.csv'
 expect 14 'cannot write to' "$program" run own.toml --out own.toml/results
 expect 12 'cannot write|standard output' sh -c "'$program' list >/dev/full"
 sed 's/max = 0.2/max = 1e-9/' own.toml > strict.toml
