@@ -10,10 +10,10 @@ struct Approach {
   double cell;                           ///< h [m], > 0
 };
 
-/// Seconds until both reach one node: until their cells are the same or next to each other. Linear shape functions see no
-/// further, and the no-slip contact of a single velocity field begins there: while the particles are still between h and
-/// 2h apart, or nearer where both enter the same cell at once. Infinite where they never do.
-/// Throws std::invalid_argument where left ≥ right or the cell is not positive.
+/// Seconds until both reach one node: until their cells are the same or next to each other. Linear shape functions see
+/// no further, and the no-slip contact of a single velocity field begins there: while the particles are still between h
+/// and 2h apart, or nearer where both enter the same cell at once. Infinite where they never do. Throws
+/// std::invalid_argument where left ≥ right or the cell is not positive.
 double grid_contact_time(const Approach&);
 
 }  // namespace diptych::analytic

@@ -119,8 +119,9 @@ analytic::BarEnd bar_end(const Case& c, End end) {
   return out;
 }
 
-/// How much nearer to the bar before it a bar of particles may come than its ends allow before the grid makes them touch:
-/// the rest of the gap when rigid flight first puts the two on one node. 0 for FEM and where they do not close in.
+/// How much nearer to the bar before it a bar of particles may come than its ends allow before the grid makes them
+/// touch: the rest of the gap when rigid flight first puts the two on one node. 0 for FEM and where they do not close
+/// in.
 double standoff(const Case& c, const Leaf& leaf, std::size_t bar) {
   if (leaf.method == "fem") return 0;
   const double h = c.first().length / leaf.cells, origin = begins_of(c, leaf.cells)[bar - 1];
@@ -138,12 +139,13 @@ std::unique_ptr<analytic::ExactSolution> make_impact(const Case& c, const Leaf& 
   const double end = instant(c, leaf, c.times.back());
   std::unique_ptr<analytic::ExactSolution> solution;
   if (c.exact.solution == "impact") {
-    analytic::BarImpact::Parameters p{{}, bar_end(c, End::left), bar_end(c, End::right), 0, c.contact == Contact::bonded};
+    analytic::BarImpact::Parameters p{
+        {}, bar_end(c, End::left), bar_end(c, End::right), 0, c.contact == Contact::bonded};
     if (leaf.method != "fem") p.bonded = false;
     for (std::size_t b = 0; b < c.bars.size(); ++b) {
       const material::Material& m = c.bars[b].material;
-      analytic::ImpactBar bar{begins[b] - shifts[b], c.bars[b].length, material::youngs_modulus(m), material::density(m),
-                              velocity_of(c, b)};
+      analytic::ImpactBar bar{begins[b] - shifts[b], c.bars[b].length, material::youngs_modulus(m),
+                              material::density(m), velocity_of(c, b)};
       if (const auto* law = std::get_if<material::Hardening>(&m)) {
         bar.yield_stress = law->yield_stress;
         bar.tangent_modulus = law->tangent_modulus;
@@ -155,8 +157,8 @@ std::unique_ptr<analytic::ExactSolution> make_impact(const Case& c, const Leaf& 
   } else {
     const auto& law = std::get<material::Hardening>(c.first().material);
     solution = std::make_unique<analytic::PlasticImpact>(analytic::PlasticImpact::Parameters{
-        law.youngs_modulus, law.density, law.yield_stress, c.first().length,
-        begins[1] - shifts[1] - c.first().length, velocity_of(c, 0), velocity_of(c, 1)});
+        law.youngs_modulus, law.density, law.yield_stress, c.first().length, begins[1] - shifts[1] - c.first().length,
+        velocity_of(c, 0), velocity_of(c, 1)});
   }
   return std::make_unique<CloserBars>(std::move(solution), std::move(begins), std::move(shifts));
 }
@@ -283,8 +285,9 @@ std::unique_ptr<analytic::ExactSolution> make_exact(const Case& c, const Leaf& l
   if (name == "impact" || name == "plastic-impact") return make_impact(c, leaf);
   if (name == "expressions") return std::make_unique<ExpressionSolution>(c);
   if (name == "standing-mode") {
-    return std::make_unique<analytic::StandingMode>(analytic::StandingMode::Parameters{
-        E, rho, c.first().length, c.left == Support::fixed, c.right == Support::fixed, c.exact.mode, c.exact.amplitude});
+    return std::make_unique<analytic::StandingMode>(
+        analytic::StandingMode::Parameters{E, rho, c.first().length, c.left == Support::fixed,
+                                           c.right == Support::fixed, c.exact.mode, c.exact.amplitude});
   }
   return std::make_unique<analytic::BarWave>(
       analytic::BarWave::Parameters{E, rho, c.first().length, bar_end(c, End::left), bar_end(c, End::right)});

@@ -42,8 +42,8 @@ Scene alone(const Scene&, std::size_t bar);
 
 /// The scene of one run. Holds expressions of its own: make one for each thread.
 Scene make_scene(const Case&, int cells);
-/// The exact solution for a run, or null where the case names none. MPM's bars touch as soon as they share a node of the
-/// grid, which rigid flight tells to the bit; the exact bars are then given the same distance to touch at.
+/// The exact solution for a run, or null where the case names none. MPM's bars touch as soon as they share a node of
+/// the grid, which rigid flight tells to the bit; the exact bars are then given the same distance to touch at.
 std::unique_ptr<analytic::ExactSolution> make_exact(const Case&, const Leaf&);
 /// The same scheme and grid as theory sees them.
 analytic::Discretisation discretisation(const Case&, const Leaf&, double courant);

@@ -42,13 +42,13 @@ struct LoadSpec {
 
 /// Artificial viscosity whose constants may be expressions of parameters.
 struct ViscositySpec {
-  material::Viscosity form;    ///< all but the constants
+  material::Viscosity form;  ///< all but the constants
   std::string c1 = "0", c2 = "0";
 };
 
 struct ExactSpec {
-  /// "bar-wave" (steps, ramps and impulses on the ends, from rest), "standing-mode", "impact" (bars that fly, strike and
-  /// yield), "plastic-impact" (two equal bars without hardening), "expressions" or "none".
+  /// "bar-wave" (steps, ramps and impulses on the ends, from rest), "standing-mode", "impact" (bars that fly, strike
+  /// and yield), "plastic-impact" (two equal bars without hardening), "expressions" or "none".
   std::string solution = "none";
   int mode = 1;                                ///< standing-mode
   double amplitude = 0;                        ///< standing-mode [length]
@@ -60,10 +60,10 @@ using Parameters = std::map<std::string, double>;
 
 /// Values of the swept axes; every combination is a run (FEM ignores `particles`: one run for all of them).
 struct Axes {
-  std::vector<std::string> method;                    ///< "fem", "mpm-usf", "mpm-usl", "mpm-musl"
-  std::vector<int> cells;                             ///< ≥ 1
-  std::vector<double> courant;                        ///< > 0
-  std::vector<std::vector<double>> particles{{0.5}};  ///< natural coordinates ξ in [0, 1], ascending, at least one
+  std::vector<std::string> method;                        ///< "fem", "mpm-usf", "mpm-usl", "mpm-musl"
+  std::vector<int> cells;                                 ///< ≥ 1
+  std::vector<double> courant;                            ///< > 0
+  std::vector<std::vector<double>> particles{{0.5}};      ///< natural coordinates ξ in [0, 1], ascending, at least one
   std::map<std::string, std::vector<double>> parameters;  ///< swept ones of [parameters]
 };
 
@@ -134,8 +134,8 @@ struct FigureSpec {
 struct Case {
   std::filesystem::path path;
   std::string id, title, claim, why;
-  std::vector<std::string> paper_figures;  ///< "1", "3a"
-  std::string units;                       ///< "SI" or "paper"
+  std::vector<std::string> paper_figures;               ///< "1", "3a"
+  std::string units;                                    ///< "SI" or "paper"
   std::vector<BarSpec> bars = std::vector<BarSpec>(1);  ///< left to right
   Support left = Support::free, right = Support::free;
   bool convected = false;

@@ -290,7 +290,8 @@ int show_command(const Options& options) {
                  c.exact.displacement);
     }
     fmt::print("  exact      {}\n  features   {}\n  sampled    t = {} {}{}\n", c.exact.solution,
-               fmt::join(c.features, ", "), fmt::join(c.times, ", "), c.time_unit, c.from_contact ? " from contact" : "");
+               fmt::join(c.features, ", "), fmt::join(c.times, ", "), c.time_unit,
+               c.from_contact ? " from contact" : "");
     fmt::print("  runs       {}\n", leaves(c).size());
     for (const Leaf& leaf : leaves(c)) {
       fmt::print("             {} {} cells, Courant {:g}{}{}\n", leaf.method, leaf.cells, leaf.courant,

@@ -26,8 +26,8 @@ std::string upper(std::string s) {
 const reports::Run* find(const std::vector<reports::Run>& runs, const FigureSpec& spec, const std::string& method) {
   for (const auto& run : runs) {
     if (run.method == method && run.cells == spec.cells && run.courant_asked == spec.courant_of(method) &&
-        run.parameters == parameters_label(spec.parameters) &&
-        run.status == "completed" && (method == "fem" || run.particles == particles_label(spec.particles))) {
+        run.parameters == parameters_label(spec.parameters) && run.status == "completed" &&
+        (method == "fem" || run.particles == particles_label(spec.particles))) {
       return &run;
     }
   }
@@ -60,22 +60,29 @@ std::vector<std::string> notes_of(const Case& c, const FigureSpec& spec) {
   for (const auto& [method, number] : spec.courants)
     courant += fmt::format("{} {:g} ({})", courant.ends_with("r") ? "" : ",", number, name_of(method));
   const bool several = c.bars.size() > 1;
-  const std::string bars = !several ? words_of(c.first())
-                           : std::all_of(c.bars.begin(), c.bars.end(), [&](const BarSpec& b) { return same(b, c.first()); })
-                               ? "each bar " + words_of(c.first())
-                               : "";
+  const std::string bars =
+      !several ? words_of(c.first())
+      : std::all_of(c.bars.begin(), c.bars.end(), [&](const BarSpec& b) { return same(b, c.first()); })
+          ? "each bar " + words_of(c.first())
+          : "";
   notes.push_back(fmt::format("{} cells{}; {}; {}{} displacements{}{}", spec.cells, several ? " in the first bar" : "",
-                              courant, particles, c.convected ? "finite" : "infinitesimal", bars.empty() ? "" : "; ", bars));
+                              courant, particles, c.convected ? "finite" : "infinitesimal", bars.empty() ? "" : "; ",
+                              bars));
   if (bars.empty()) {
-    for (std::size_t b = 0; b < c.bars.size(); ++b) notes.push_back(fmt::format("bar {}: {}", b + 1, words_of(c.bars[b])));
+    for (std::size_t b = 0; b < c.bars.size(); ++b)
+      notes.push_back(fmt::format("bar {}: {}", b + 1, words_of(c.bars[b])));
   }
   std::string velocities;
   for (std::size_t b = 0; b < c.bars.size(); ++b) {
-    if (!c.bars[b].velocity.empty()) velocities += fmt::format("{}{:g}", velocities.empty() ? "" : ", ", velocity_of(c, b));
+    if (!c.bars[b].velocity.empty())
+      velocities += fmt::format("{}{:g}", velocities.empty() ? "" : ", ", velocity_of(c, b));
   }
   if (!velocities.empty())
-    notes.push_back(fmt::format("Velocities at the start {}.{}", velocities, !mpm || !c.from_contact || spec.kind == "motion" ? "" :
-                    " Each method's times count from its own contact: MPM's bars touch as soon as they share a node."));
+    notes.push_back(fmt::format(
+        "Velocities at the start {}.{}", velocities,
+        !mpm || !c.from_contact || spec.kind == "motion"
+            ? ""
+            : " Each method's times count from its own contact: MPM's bars touch as soon as they share a node."));
   if (c.viscosity) {
     notes.push_back("Artificial viscosity " + words_of(viscosity_of(c)));
   }
@@ -108,7 +115,8 @@ void add_motion(const Case& c, const FigureSpec& spec, const std::vector<reports
     for (std::size_t i = 0; i < curve.x.size(); ++i) curve.x[i] = origins[i] + spec.magnify * (curve.x[i] - origins[i]);
     return curve;
   };
-  if (spec.magnify != 1) figure.notes.push_back(fmt::format("Displacements are drawn {:g} times as large.", spec.magnify));
+  if (spec.magnify != 1)
+    figure.notes.push_back(fmt::format("Displacements are drawn {:g} times as large.", spec.magnify));
   reports::Figure::Panel whole;
   for (const std::string& method : spec.methods) {
     const reports::Run* run = find(runs, spec, method);

@@ -75,7 +75,8 @@ Norms error_norms(const Field& field, const analytic::ExactSolution& exact, anal
   return norms;
 }
 
-double mean_between_fronts(const analytic::ExactSolution& exact, analytic::Quantity quantity, const Span& bar, double t) {
+double mean_between_fronts(const analytic::ExactSolution& exact, analytic::Quantity quantity, const Span& bar,
+                           double t) {
   double sum = 0, covered = 0;
   for_each_piece(bar, {}, exact.fronts(t), [&](double begin, double end) {
     sum += (end - begin) * exact.at(quantity, (begin + end) / 2, t);

@@ -13,8 +13,8 @@ namespace {
 
 using analytic::Quantity;
 
-/// Mean over the bar of a field given at points, each of which stands for what is nearest to it: the mass of FEM's lumped
-/// nodes and of particles.
+/// Mean over the bar of a field given at points, each of which stands for what is nearest to it: the mass of FEM's
+/// lumped nodes and of particles.
 double mean_at_points(const Field& field, const Span& bar) {
   double sum = 0;
   for (std::size_t i = 0; i < field.x.size(); ++i) {

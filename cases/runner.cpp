@@ -63,8 +63,7 @@ Stepping plan(const Case& c, const Scene& scene, const Leaf& leaf) {
       std::max(1L, static_cast<long>(std::ceil(end / (leaf.courant * cell_time(scene, leaf)) * (1 - round_off))));
   stepping.time_step = end / static_cast<double>(stepping.steps);
   for (const double time : c.times) {
-    stepping.sample_after.push_back(
-        std::max(1L, std::lround(instant(c, leaf, time) / stepping.time_step)));
+    stepping.sample_after.push_back(std::max(1L, std::lround(instant(c, leaf, time) / stepping.time_step)));
   }
   stepping.books = c.ledger ? Books::sums : Books::off;
   return stepping;
@@ -243,8 +242,10 @@ reports::Sample measure_sample(const Case& c, const Leaf& leaf, const Snapshot& 
     const Norms norms = error_norms(field, *exact, q, bars);
     reports::FieldError error{name, (field.time - origin) / unit, scale, norms.l1, norms.l2, norms.linf, {}, {}, {}};
     const auto predicted = [&](analytic::Norm norm) {
-      const double nu = c.viscosity ? viscosity_strength(c) * material::wave_speed(c.first().material) * theory.cell : 0;
-      auto value = c.viscosity ? analytic::viscous_step_error(*exact, nu, q, norm, field.time) : analytic::predicted_error(*exact, theory, q, norm, field.time);
+      const double nu =
+          c.viscosity ? viscosity_strength(c) * material::wave_speed(c.first().material) * theory.cell : 0;
+      auto value = c.viscosity ? analytic::viscous_step_error(*exact, nu, q, norm, field.time)
+                               : analytic::predicted_error(*exact, theory, q, norm, field.time);
       if (value) *value /= scale;
       return value;
     };
@@ -304,7 +305,8 @@ constexpr double allowed_residual = 1e-4;  // room for the round-off of steep ra
 
 std::string doubt(double residual) {
   if (residual <= allowed_residual) return {};
-  return fmt::format("the exact solution fails its own test: residual {:.3g}, allowed {:g}", residual, allowed_residual);
+  return fmt::format("the exact solution fails its own test: residual {:.3g}, allowed {:g}", residual,
+                     allowed_residual);
 }
 
 /// Why a run's own exact solution is not to be trusted, or nothing.
@@ -373,8 +375,7 @@ reports::Run run_leaf(const Case& whole, const Leaf& leaf, const Running& runnin
   }
 
   const std::vector<long> samples = stepping.sample_after;
-  const std::vector<long> motion =
-      drawn(c, leaf, "motion") ? steps_of_motion(c, leaf, stepping) : std::vector<long>{};
+  const std::vector<long> motion = drawn(c, leaf, "motion") ? steps_of_motion(c, leaf, stepping) : std::vector<long>{};
   stepping.sample_after.clear();
   std::set_union(samples.begin(), samples.end(), motion.begin(), motion.end(),
                  std::back_inserter(stepping.sample_after));
@@ -409,9 +410,8 @@ reports::Run run_leaf(const Case& whole, const Leaf& leaf, const Running& runnin
   }
   measure_ledger(c, record.sums, run);
   for (const LedgerLine& line : record.ledger) {
-    run.ledger.push_back(
-        {line.time, line.kinetic, line.strain, line.dissipated, line.viscous, line.contact, line.scheme, line.work,
-         line.lost, line.momentum, line.impulse});
+    run.ledger.push_back({line.time, line.kinetic, line.strain, line.dissipated, line.viscous, line.contact,
+                          line.scheme, line.work, line.lost, line.momentum, line.impulse});
   }
   measure_outcomes(scene, spans_of(c, leaf.cells), record, stepping.time_step, exact.get(), run);
   measure_early_contact(c, leaf, record, run);

@@ -83,7 +83,8 @@ class Mesh {
       }
       const material::Response response = law_.update(state_[e], strain_increment);
       if constexpr (viscous) {
-        const double speed = scene_.viscosity->form == material::Viscosity::Form::york ? c_max : law_.elastic_wave_speed();
+        const double speed =
+            scene_.viscosity->form == material::Viscosity::Form::york ? c_max : law_.elastic_wave_speed();
         q_[e] = scene_.viscosity->stress(strain_increment / dt, largest, law_.density, speed, h_);
       }
       if constexpr (with_ledger) {

@@ -18,9 +18,9 @@ struct Face {
 /// Katona, IJNME 32, 1991). What stops the approach is a perfectly plastic impact of the two end masses: it loses their
 /// relative energy, of the order of the element size. Contact ends in the middle of the kick in which the opening wave
 /// arrives, so that kick feels half of the pressure before it; and it ends when the pressure after it, 2p − p⁻ by that
-/// reckoning, would have to pull. With this release (compare Hughes et al., CMAME 8, 1976) bars at Courant number 1 part
-/// with the exact velocities, and what the impact lost comes back. The pressure before a kick is that of the last one, or,
-/// where a front arrived in that, less: what it left behind.
+/// reckoning, would have to pull. With this release (compare Hughes et al., CMAME 8, 1976) bars at Courant number 1
+/// part with the exact velocities, and what the impact lost comes back. The pressure before a kick is that of the last
+/// one, or, where a front arrived in that, less: what it left behind.
 class Pair {
  public:
   Pair(std::size_t left, double gap, Contact contact) : left_(left), gap_at_start_(gap), contact_(contact) {}

@@ -11,8 +11,8 @@
 
 namespace diptych {
 
-/// Adds up what loads and supports put in and compares it with what the bars hold and what took it away. For each kick of
-/// length τ that takes v⁻ to v⁺ under forces f, the work is τ f·(v⁻ + v⁺)/2: the discrete kinetic energy changes by
+/// Adds up what loads and supports put in and compares it with what the bars hold and what took it away. For each kick
+/// of length τ that takes v⁻ to v⁺ under forces f, the work is τ f·(v⁻ + v⁺)/2: the discrete kinetic energy changes by
 /// exactly that much.
 class Ledger {
  public:
@@ -45,8 +45,8 @@ class Ledger {
       opening_ = held + contact_ - work_;
       scheme_ = 0;
     }
-    add({first_time_ + static_cast<double>(sums_.lines) * dt_, kinetic, strain, dissipated_, viscous_, contact_, scheme_,
-         work_, work_ + opening_ - held - contact_ - scheme_, momentum, start_momentum_ + impulse_});
+    add({first_time_ + static_cast<double>(sums_.lines) * dt_, kinetic, strain, dissipated_, viscous_, contact_,
+         scheme_, work_, work_ + opening_ - held - contact_ - scheme_, momentum, start_momentum_ + impulse_});
     dissipated_ += dissipated;
   }
 

@@ -10,8 +10,8 @@ namespace diptych {
 
 /// A field along the bars at its own time level (leapfrog fields live at different half-steps). x is the reference
 /// coordinate. `value` holds either one value per point, to be read as linear between points and beyond the outer
-/// two of a bar (velocity, displacement), or, where `edges` is filled, one value per interval between two edges of a bar
-/// (stress).
+/// two of a bar (velocity, displacement), or, where `edges` is filled, one value per interval between two edges of a
+/// bar (stress).
 struct Field {
   double time = 0;  ///< [s]
   std::vector<double> x;
@@ -27,7 +27,8 @@ struct Field {
       return v.empty() ? v : std::vector<double>(v.begin() + begin, v.begin() + end);
     };
     const auto edges_before = static_cast<std::ptrdiff_t>(bar);
-    return {time, part(x, from, to), part(edges, from + edges_before, to + edges_before + 1), part(value, from, to), {0}};
+    return {
+        time, part(x, from, to), part(edges, from + edges_before, to + edges_before + 1), part(value, from, to), {0}};
   }
 };
 
@@ -38,8 +39,8 @@ struct Snapshot {
 
 /// One line of the ledger, at one stress update. With σⁿ and vⁿ⁺½ at hand the sum
 /// kinetic + strain = ½ Σ m (vⁿ⁺½)² + Σ V (ψⁿ + ½ σⁿ Δεⁿ⁺½) is the leapfrog's own (shadow) energy: for a linear bar its
-/// change is exactly the work of the loads. What else takes energy has a line of its own, each found from its own forces
-/// and velocities, so `lost` is what nobody can account for: round-off.
+/// change is exactly the work of the loads. What else takes energy has a line of its own, each found from its own
+/// forces and velocities, so `lost` is what nobody can account for: round-off.
 struct LedgerLine {
   double time = 0;        ///< of the velocity [s]
   double kinetic = 0;     ///< [J]

@@ -98,7 +98,8 @@ inline double largest_wave_speed(const Scene& scene) {
   return largest;
 }
 
-/// Largest difference of the velocities that the bars start with, where the middles and ends of bars are looked at [m/s].
+/// Largest difference of the velocities that the bars start with, where the middles and ends of bars are looked at
+/// [m/s].
 inline double initial_velocity_jump(const Scene& scene) {
   double least = 0, most = 0;
   bool any = false;

@@ -1,4 +1,5 @@
-// Artificial viscosity: a stress that resists the rate of strain, so that a front spreads over some cells and does not ring.
+// Artificial viscosity: a stress that resists the rate of strain, so that a front spreads over some cells and does not
+// ring.
 #pragma once
 
 #include <algorithm>
@@ -7,18 +8,18 @@
 
 namespace diptych::material {
 
-/// The two forms in use. By eq. 22 they act in compression alone; codes that damp expansion as well are had by `always`,
-/// for which linear theory is exact.
+/// The two forms in use. By eq. 22 they act in compression alone; codes that damp expansion as well are had by
+/// `always`, for which linear theory is exact.
 struct Viscosity {
   enum class Form {
     york,             ///< eq. 21 as York, Sulsky & Schreyer (IJNME 48, 2000, eq. 24) have it
     linear_quadratic  ///< ρ(c₁ c h |D| + c₂ h² D²) of other codes (Bardenhagen & Kober, CMES 5, 2004, eq. 45)
   };
   Form form = Form::york;
-  double c1 = 1, c2 = 1;              ///< ≥ 0
-  double bulk = 0.75;                 ///< λ of eq. 21, a pure number there
+  double c1 = 1, c2 = 1;                ///< ≥ 0
+  double bulk = 0.75;                   ///< λ of eq. 21, a pure number there
   double length = std::numbers::sqrt2;  ///< g of eq. 21 in cells
-  bool always = false;                ///< also in expansion
+  bool always = false;                  ///< also in expansion
 
   bool acts(double D) const { return D < 0 || (always && D > 0); }  // eq. 22
 

@@ -33,8 +33,8 @@ struct NodalForce {
 /// stays one ulp inside its cell: no node it touches is without mass, and the limit ξ → 0 is taken rather than 0/0.
 constexpr double edge = 0.5 - 0x1p-54;
 
-/// What a particle must carry beside its state: nothing where one bar fills the grid cell by cell and stays; its cell and
-/// mass where several bars stand in it; and its stretch where it moves.
+/// What a particle must carry beside its state: nothing where one bar fills the grid cell by cell and stays; its cell
+/// and mass where several bars stand in it; and its stretch where it moves.
 enum class Carries { nothing, cell, stretch };
 
 template <class Law, Carries carries, bool viscous>
@@ -53,8 +53,8 @@ class Bars {
         per_cell_(positions.size()) {
     for (std::size_t b = 0, first = 0; b < scene.bars.size(); ++b) {
       const auto count = static_cast<std::size_t>(cells_of(scene, b, cells));
-      members_.push_back({laws[b], count, first, first + count * per_cell_,
-                          laws[b].density * h_ / static_cast<double>(per_cell_)});
+      members_.push_back(
+          {laws[b], count, first, first + count * per_cell_, laws[b].density * h_ / static_cast<double>(per_cell_)});
       first = members_.back().last;
     }
     lay_grid();
@@ -162,7 +162,8 @@ class Bars {
   double free_mass() const {
     double sum = 0;
     if (scene_.left == Support::free && scene_.right == Support::free) {
-      for (const Member& member : members_) sum += static_cast<double>(member.last - member.first) * member.particle_mass;
+      for (const Member& member : members_)
+        sum += static_cast<double>(member.last - member.first) * member.particle_mass;
     }
     return sum;
   }
@@ -225,8 +226,8 @@ class Bars {
     if constexpr (viscous) q_.resize(count);
     for (std::size_t b = 0; b < members_.size(); ++b) {
       const Bar& bar = scene_.bars[b];
-      // Where the bar begins, in cells; a whole number but for round-off is whole, so that its shape functions are to the
-      // bit those of the bar alone.
+      // Where the bar begins, in cells; a whole number but for round-off is whole, so that its shape functions are to
+      // the bit those of the bar alone.
       double begin = (bar.begin - scene_.begin()) / h_;
       if (std::abs(begin - std::round(begin)) < 1e-9) begin = std::round(begin);
       const double shift = begin - std::floor(begin);
@@ -383,7 +384,8 @@ class Bars {
       for (std::size_t q = 0; q < member.last - member.first; ++q) {
         const double begin = share_depth(member, q), end = share_depth(member, q + 1);
         const double inside = std::min(end - begin, thickness - begin);
-        if (inside > 0) layer.push_back({load.end == End::left ? member.first + q : member.last - 1 - q, inside / thickness});
+        if (inside > 0)
+          layer.push_back({load.end == End::left ? member.first + q : member.last - 1 - q, inside / thickness});
       }
     }
   }
@@ -494,7 +496,8 @@ class Bars {
         if constexpr (convected) stretch_[p] += strain_increment;  // eq. 1
         if constexpr (viscous) {
           const bool york = scene_.viscosity->form == material::Viscosity::Form::york;
-          q_[p] = scene_.viscosity->stress(gradient, largest, law.density, york ? c_max_ : law.elastic_wave_speed(), h_);
+          q_[p] =
+              scene_.viscosity->stress(gradient, largest, law.density, york ? c_max_ : law.elastic_wave_speed(), h_);
         }
         if constexpr (with_ledger) {
           dissipated += rest_length() * response.dissipated;
@@ -553,7 +556,8 @@ class Bars {
     } else if (std::abs(offset) <= 0.5 + 1e-9) {  // round-off beyond a wall
       offset_[p] = std::clamp(offset, -edge, edge);
     } else {
-      trouble_ = "particle " + std::to_string(p) + " left the grid, which reaches as far beyond a free end as the bars reach";
+      trouble_ =
+          "particle " + std::to_string(p) + " left the grid, which reaches as far beyond a free end as the bars reach";
     }
   }
 
@@ -591,8 +595,8 @@ class Bars {
 
   // --- books ---------------------------------------------------------------------------------------------------------
 
-  /// What the scheme takes on its way from one map to the next. The stress was updated with one map's velocities, half of
-  /// its work on that strain stands in the strain energy, and the other half is done by the internal forces with the
+  /// What the scheme takes on its way from one map to the next. The stress was updated with one map's velocities, half
+  /// of its work on that strain stands in the strain energy, and the other half is done by the internal forces with the
   /// particles' new stretches, places and velocities. The two cancel where nothing moved in between.
   void account_for_remapping(Ledger* ledger) {
     if (!convected && scheme_ != Scheme::usl) return;
@@ -717,8 +721,9 @@ Record run(const Scene& scene, int cells, const std::vector<double>& positions, 
   }
   const double span = (scene.end() - scene.begin()) / (scene.bars[0].length / cells);
   if (scene.right == Support::fixed && std::abs(span - std::round(span)) > 1e-9 * span)
-    throw std::invalid_argument("mpm: a wall at the right end must stand on a face of the grid, a whole number of cells "
-                                "from the left end of the first bar");
+    throw std::invalid_argument(
+        "mpm: a wall at the right end must stand on a face of the grid, a whole number of cells "
+        "from the left end of the first bar");
   const auto go = [&]<Carries carries, bool viscous>(const auto& laws) {
     using Law = typename std::decay_t<decltype(laws)>::value_type;
     Bars<Law, carries, viscous> bars(scene, laws, cells, positions, scheme, stepping);

@@ -147,9 +147,10 @@ Json json_of(const Sample& sample, bool& finite) {
 }
 
 Json json_of(const Run& run) {
-  Json out{{"type", "run"},        {"case", run.case_id},    {"label", run.label()},
-           {"method", run.method}, {"cells", run.cells},     {"particles", run.particles}, {"parameters", run.parameters},
-           {"status", run.status}, {"message", run.message}, {"invalid", run.invalid}};
+  Json out{
+      {"type", "run"},          {"case", run.case_id},        {"label", run.label()},         {"method", run.method},
+      {"cells", run.cells},     {"particles", run.particles}, {"parameters", run.parameters}, {"status", run.status},
+      {"message", run.message}, {"invalid", run.invalid}};
   Numbers numbers(out);
   numbers.also(run.finite);
   numbers.put("courant_asked", run.courant_asked);

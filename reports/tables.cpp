@@ -39,8 +39,7 @@ std::vector<Group> groups(const Case& data) {
   for (const Run& run : data.runs) {
     const auto same = [&](const Group& g) {
       return g.first().method == run.method && g.first().particles == run.particles &&
-             g.first().parameters == run.parameters &&
-             g.first().courant_asked == run.courant_asked;
+             g.first().parameters == run.parameters && g.first().courant_asked == run.courant_asked;
     };
     const auto place = std::find_if(found.begin(), found.end(), same);
     if (place == found.end())
@@ -502,8 +501,8 @@ Grid books_grid(const Case& data, const Group& group) {
 
 /// What came of an impact, measured / exact: empty where no bars met and nothing yielded.
 Grid outcome_grid(const Case& data, const Group& group) {
-  static constexpr std::array names{"contact.begin", "contact.early", "contact.end", "contact.duration",
-                                    "contact.restitution", "plastic.work"};
+  static constexpr std::array names{"contact.begin",    "contact.early",       "contact.end",
+                                    "contact.duration", "contact.restitution", "plastic.work"};
   Grid grid;
   grid.title = "Impact, measured / exact (" + (data.units == "SI" ? std::string("SI") : data.units + " units") + ")";
   grid.heads = {"cells"};
