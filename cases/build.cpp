@@ -139,9 +139,8 @@ std::unique_ptr<analytic::ExactSolution> make_impact(const Case& c, const Leaf& 
   const double end = instant(c, leaf, c.times.back());
   std::unique_ptr<analytic::ExactSolution> solution;
   if (c.exact.solution == "impact") {
-    analytic::BarImpact::Parameters p{
-        {}, bar_end(c, End::left), bar_end(c, End::right), 0, c.contact == Contact::bonded};
-    if (leaf.method != "fem") p.bonded = false;
+    const bool bonded = leaf.method == "fem" && c.contact == Contact::bonded;
+    analytic::BarImpact::Parameters p{{}, bar_end(c, End::left), bar_end(c, End::right), 0, bonded};
     for (std::size_t b = 0; b < c.bars.size(); ++b) {
       const material::Material& m = c.bars[b].material;
       analytic::ImpactBar bar{begins[b] - shifts[b], c.bars[b].length, material::youngs_modulus(m),
