@@ -14,50 +14,26 @@
 #include "analytic/standing_mode.hpp"
 #include "cases/case_file.hpp"
 #include "cases/expression.hpp"
+#include "cases/histories.hpp"
 
 namespace diptych::cases {
 namespace {
 
 using analytic::Quantity;
 
-/// Mean over [from, to] of f(t) = amplitude for t ≥ start.
-double mean_of_step(double amplitude, double start, double from, double to) {
-  if (from >= start) return amplitude;
-  if (to <= start) return 0;
-  return amplitude * ((to - start) / (to - from));
-}
-
-/// Mean over [from, to] of a rise from 0 to the amplitude between start and start + rise.
-double mean_of_ramp(double amplitude, double start, double rise, double from, double to) {
-  if (from >= start + rise) return amplitude;
-  const auto integral = [&](double t) {
-    const double s = t - start;
-    return s <= 0 ? 0 : s < rise ? s * s / (2 * rise) : s - rise / 2;
-  };
-  return amplitude * ((integral(to) - integral(from)) / (to - from));
-}
-
 Load make_load(const Case& c, const LoadSpec& spec, int cells) {
   Load load;
   load.end = spec.end;
   load.transfer = spec.transfer;
   if (spec.transfer == Transfer::boundary_layer) load.layer_thickness = length_of(c, spec.layer_thickness, cells);
-  const double start = spec.start.value * time_unit(c, spec.start.unit), traction = spec.traction;
-  if (spec.history == "step") {
-    load.mean_traction = [=](double from, double to) { return mean_of_step(traction, start, from, to); };
-  } else if (spec.history == "ramp") {
-    const double rise = spec.rise.value * time_unit(c, spec.rise.unit);
-    load.mean_traction = [=](double from, double to) { return mean_of_ramp(traction, start, rise, from, to); };
-  } else if (spec.history == "impulse") {
-    const double end = start + spec.duration.value * time_unit(c, spec.duration.unit);
-    load.mean_traction = [=](double from, double to) {
-      return mean_of_step(traction, start, from, to) - mean_of_step(traction, end, from, to);
-    };
-  } else {
-    load.mean_traction = [f = Expression(spec.expression, {"t"}, expression_constants(c))](double from, double to) {
-      return (f(from) + 4 * f((from + to) / 2) + f(to)) / 6;  // Simpson: exact for cubics
-    };
+  if (spec.history == "expression") {
+    load.mean_traction = mean_over(Expression(spec.expression, {"t"}, expression_constants(c)));
+    return load;
   }
+  const auto seconds = [&](const Measured& time) { return time.value * time_unit(c, time.unit); };
+  load.mean_traction =
+      mean_over({spec.history, spec.traction, seconds(spec.start), spec.history == "ramp" ? seconds(spec.rise) : 0,
+                 spec.history == "impulse" ? seconds(spec.duration) : 0});
   return load;
 }
 

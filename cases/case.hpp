@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "cases/plate_spec.hpp"
 #include "material/scene.hpp"
 
 namespace diptych::cases {
@@ -65,6 +66,7 @@ struct Axes {
   std::vector<double> courant;                            ///< > 0
   std::vector<std::vector<double>> particles{{0.5}};      ///< natural coordinates ξ in [0, 1], ascending, at least one
   std::map<std::string, std::vector<double>> parameters;  ///< swept ones of [parameters]
+  std::vector<std::string> variant{""};                   ///< of a plate; "" is the case as it stands
 };
 
 /// Restricts a gate to some values of the axes; an empty list is no restriction.
@@ -74,6 +76,7 @@ struct Where {
   std::vector<double> courant;
   std::vector<std::vector<double>> particles;
   std::map<std::string, std::vector<double>> parameters;
+  std::vector<std::string> variant;
 };
 
 struct Probe {
@@ -84,7 +87,7 @@ struct Probe {
 
 struct GateSpec {
   std::string id;        ///< unique in the case
-  std::string kind;      ///< "exact", "constant", "order", "invariant", "limit"
+  std::string kind;      ///< "exact", "constant", "order", "invariant", "limit", "agreement"
   std::string quantity;  ///< see cases/README.md
   std::string reason;    ///< why this tolerance
   Where where;
@@ -94,9 +97,12 @@ struct GateSpec {
   std::string predict;                         ///< constant, limit: name of the theory
   std::optional<double> expect;                ///< order: must agree with theory where there is one
   std::optional<std::array<double, 2>> band;   ///< order: allowed slope, inclusive
-  int levels_min = 4;                          ///< order: least number of meshes
+  int levels_min = 4;                          ///< order: least number of meshes (or time steps)
+  bool over_time_step = false;                 ///< order: of the time step on each mesh; else of the mesh
   std::string outcome;                         ///< limit: "unstable" where the runs must be detected as unstable
   long steps = 2000;                           ///< limit: steps of each trial of the bisection
+  std::vector<int> judged;                     ///< agreement: meshes on which the methods must agree
+  double level = 0;                            ///< agreement of contours: of C_d
   bool slow = false;                           ///< left out by --quick, and then reported as left out
   int line = 0;                                ///< of its declaration
   std::string declaration;                     ///< its own keys and values in one canonical line, for gates.lock
@@ -110,7 +116,9 @@ struct Zoom {
 struct FigureSpec {
   std::string id;                 ///< "fig1"
   std::string title;              ///< empty: the case's
-  std::string kind = "profiles";  ///< of a field at some times, or "motion": positions over time
+  /// "profiles" of a field at some times, or "motion": positions over time. Of a plate "contours" of both methods and
+  /// their difference, "problem": the scene itself, "history" of the platen, or "choices": what each variant does.
+  std::string kind = "profiles";
   std::string field = "stress";
   std::vector<double> times;          ///< subset of the sample times; empty: all
   std::vector<std::string> captions;  ///< one per time: what to see
@@ -124,6 +132,7 @@ struct FigureSpec {
   std::optional<std::array<double, 2>> range;  ///< of the field's axis
   std::optional<Zoom> zoom;                    ///< motion
   double magnify = 1;                          ///< motion: displacements are drawn so many times as large
+  std::vector<double> levels;                  ///< contours, choices: of the field
 
   double courant_of(const std::string& method) const {
     const auto own = courants.find(method);
@@ -139,6 +148,9 @@ struct Case {
   std::vector<BarSpec> bars = std::vector<BarSpec>(1);  ///< left to right
   Support left = Support::free, right = Support::free;
   bool convected = false;
+  std::optional<PlateSpec> plate;  ///< then `bars`, their ends, loads and exact solution mean nothing
+  std::vector<PlateVariant> variants;
+  std::vector<PlateProbe> plate_probes;
   Contact contact = Contact::node_to_node;
   std::optional<ViscositySpec> viscosity;
   std::vector<LoadSpec> loads;

@@ -8,6 +8,7 @@
 #include "cases/build.hpp"
 #include "cases/case_file.hpp"
 #include "cases/expression.hpp"
+#include "cases/plate_build.hpp"
 
 namespace diptych::cases {
 namespace {
@@ -127,21 +128,70 @@ void check_order(Table& t, const GateSpec& gate, const Case& c) {
   if (gate.band && gate.expect && (*gate.expect < (*gate.band)[0] || *gate.expect > (*gate.band)[1]))
     t.place("expect").refuse(words(*gate.expect),
                              "an order within the band, " + words((*gate.band)[0]) + " to " + words((*gate.band)[1]));
+  const char* varies = gate.over_time_step ? "courant" : "cells";
   std::map<std::string, int> meshes;  // of each series that differs in nothing else
   for (const Leaf& run : runs_of(gate, c))
-    ++meshes[run.method + ", courant = " + words(run.courant) +
-             (run.method == "fem" ? "" : ", particles = " + words(run.particles)) +
-             (run.parameters.empty() ? "" : ", " + parameters_label(run.parameters))];
+    ++meshes[run.method +
+             (gate.over_time_step ? ", cells = " + words(run.cells) : ", courant = " + words(run.courant)) +
+             (run.particles.empty() ? "" : ", particles = " + words(run.particles)) +
+             (parameters_label(run).empty() ? "" : ", " + parameters_label(run))];
   for (const auto& [series, count] : meshes) {
     if (count >= gate.levels_min) continue;
     t.place("levels_min")
-        .refuse(fmt::format("{} values of cells for {}", count, series),
+        .refuse(fmt::format("{} values of {} for {}", count, varies, series),
                 fmt::format("at least levels_min = {}", gate.levels_min));
     return;  // the other series differ in the same way
   }
 }
 
+/// Places and times at which expressions are tried.
+struct Trial {
+  std::vector<double> x{0}, y{0}, t{0};
+};
+Trial trial_of(const Case& c) {
+  Trial trial;
+  const double width = c.plate ? c.plate->width : c.first().length;
+  trial.x = {0, width / 2, width};
+  if (c.plate) trial.y = {0, c.plate->height / 2, c.plate->height};
+  for (const double time : c.times) trial.t.push_back(time * time_unit(c, c.time_unit));
+  return trial;
+}
+
+const Names plate_invariants{"energy.drift",     "energy.lost",      "energy.closure",        "momentum.drift",
+                             "bits.repeat",      "bits.threads",     "bits.mirror",           "bits.power-of-two",
+                             "bits.undamaged",   "numbers.largest",  "area.error",            "concentration.balance",
+                             "concentration.least", "cross.forward-euler"};
+const Names plate_fields{"displacement", "velocity", "stress", "concentration"};
+
+Names plate_quantities_of(const std::string& kind, const Case& c) {
+  if (kind == "invariant") return plate_invariants;
+  if (kind == "limit") return {"critical_courant", "stable"};
+  Names names;
+  if (kind != "agreement")
+    for (const std::string& field : plate_fields)
+      for (const char* norm : {".L1", ".L2", ".Linf"}) names.push_back(field + norm);
+  if (kind != "constant")
+    for (const PlateProbe& probe : c.plate_probes) names.push_back("probe." + probe.id);
+  if (kind == "agreement") names.insert(names.end(), {"contour.distance", "platen.history"});
+  return names;
+}
+
 }  // namespace
+
+const Names& methods_of(const Case& c) {
+  return c.plate && !c.plate->material ? diffusion_methods : methods;
+}
+
+Names variants_of(const Case& c) {
+  Names names{""};
+  for (const PlateVariant& variant : c.variants) names.push_back(variant.id);
+  return names;
+}
+
+Names figure_kinds(const Case& c) {
+  if (c.plate) return {"contours", "problem", "history", "choices"};
+  return {"profiles", "motion"};
+}
 
 Names theories() {
   Names names;
@@ -150,6 +200,7 @@ Names theories() {
 }
 
 Names quantities_of(const std::string& kind, const Case& c) {
+  if (c.plate) return plate_quantities_of(kind, c);
   if (kind == "invariant") return invariants;
   if (kind == "limit") return {"critical_courant", "stable"};
   Names names;
@@ -169,6 +220,7 @@ Names quantities_of(const std::string& kind, const Case& c) {
 Axes all_axes(const Case& c) {
   Axes all;
   all.particles.clear();
+  all.variant.clear();
   const auto add = [](auto& to, const auto& from) {
     to.insert(to.end(), from.begin(), from.end());
     std::sort(to.begin(), to.end());
@@ -179,6 +231,7 @@ Axes all_axes(const Case& c) {
     add(all.cells, block.cells);
     add(all.courant, block.courant);
     add(all.particles, block.particles);
+    add(all.variant, block.variant);
     for (const auto& [name, values] : block.parameters) add(all.parameters[name], values);
   }
   return all;
@@ -275,31 +328,34 @@ void check_times(const Place& place, const Case& c) {
 
 void check_expression(const Place& place, const std::string& text, const Names& variables, const Case& c) {
   if (text.empty()) return;
-  const bool known = bar_is_known(c);
+  const bool known = c.plate ? c.plate->width > 0 && c.plate->height > 0 : bar_is_known(c);
   std::map<std::string, double> constants = expression_constants(c);
   if (!known)  // reported already: any values will do to find the mistakes of the formula itself
     for (const char* name : {"L", "E", "rho", "c"}) constants[name] = 0.7;
   try {
     const Expression expression(text, variables, constants);
-    if (!known) return;
-    const bool of_x = contains(variables, "x"), of_t = contains(variables, "t");
-    std::vector<double> xs{0}, ts{0};
-    if (of_x) xs = {0, c.first().length / 2, c.first().length};
-    if (of_t)
-      for (const double time : c.times) ts.push_back(time * time_unit(c, c.time_unit));
-    if (!of_x && !of_t) {  // a constant one, which the reader of expressions has seen to be finite
-      return;
-    }
-    for (const double x : xs) {
-      for (const double t : ts) {
-        const double value = of_x && of_t ? expression(x, t) : expression(of_x ? x : t);
-        if (std::isfinite(value)) continue;
-        place.say(
-            fmt::format("found {}, which is {} at {}{}{}; allowed: finite values at x in {{0, L/2, L}} and t in "
-                        "{{0, sample times}}",
-                        words(text), std::isnan(value) ? "NaN" : words(value), of_x ? "x = " + words(x) : "",
-                        of_x && of_t ? ", " : "", of_t ? "t = " + words(t) : ""));
-        return;
+    if (!known || variables.empty()) return;  // the reader of expressions has seen a constant one to be finite
+    const Trial trial = trial_of(c);
+    const std::map<std::string, const std::vector<double>*> tried{{"x", &trial.x}, {"y", &trial.y}, {"t", &trial.t}};
+    std::array<const std::vector<double>*, 3> values{};
+    static const std::vector<double> once{0};
+    for (std::size_t k = 0; k < 3; ++k) values[k] = k < variables.size() ? tried.at(variables[k]) : &once;
+    for (const double a : *values[0]) {
+      for (const double b : *values[1]) {
+        for (const double third : *values[2]) {
+          const double value = variables.size() == 1   ? expression(a)
+                               : variables.size() == 2 ? expression(a, b)
+                                                       : expression(a, b, third);
+          if (std::isfinite(value)) continue;
+          const std::array<double, 3> at{a, b, third};
+          std::string where;
+          for (std::size_t k = 0; k < variables.size(); ++k)
+            where += (k > 0 ? ", " : "") + variables[k] + " = " + words(at[k]);
+          place.say(fmt::format("found {}, which is {} at {}; allowed: finite values at {} and t in {{0, sample times}}",
+                                words(text), std::isnan(value) ? "NaN" : words(value), where,
+                                c.plate ? "the corners and the middle" : "x in {0, L/2, L}"));
+          return;
+        }
       }
     }
   } catch (const InputError& error) {
@@ -415,7 +471,38 @@ void check_solution(const Place& place, const Case& c) {
     place.say("found \"bar-wave\" without a load; allowed: at least one [[load]] with a traction other than 0");
 }
 
+/// A quantity of a plate needs what it is about.
+void check_plate_gate(Table& t, const GateSpec& gate, const Case& c) {
+  const Place place = t.place("quantity");
+  const std::string field = gate.quantity.substr(0, gate.quantity.find('.'));
+  const PlateExact& e = c.plate->exact;
+  if (contains(plate_fields, field) && !contains(plate_invariants, gate.quantity)) {
+    const bool given = e.solution == "none"            ? false
+                       : e.solution == "expressions"   ? !(field == "stress"         ? e.stress[0]
+                                                           : field == "velocity"     ? e.velocity[0]
+                                                           : field == "displacement" ? e.displacement[0]
+                                                                                     : e.concentration)
+                                                              .empty()
+                       : e.solution == "corner-source" ? field == "concentration"
+                                                       : field != "concentration";
+    if (!given)
+      place.refuse(words(gate.quantity) + " where [exact] does not give it", "fields that [exact] gives");
+  }
+  if (gate.kind == "constant" && !gate.predict.empty() && gate.predict != "mode")
+    t.place("predict").refuse(words(gate.predict) + " on a plate", "\"mode\"");
+  const bool of_ledger = gate.quantity.starts_with("energy.") || gate.quantity.starts_with("momentum.");
+  if (of_ledger && !c.ledger)
+    place.refuse(words(gate.quantity) + " with run.ledger = false", "with the ledger, run.ledger = true");
+  if (gate.quantity == "bits.power-of-two" && c.plate->evolution)
+    place.refuse(words(gate.quantity) + " of a plate with damage", "of elastic plates: eq. 23a is not free of units");
+  if (gate.kind == "order") check_order(t, gate, c);
+}
+
 void check_gate(Table& t, const GateSpec& gate, const Case& c) {
+  if (c.plate) {
+    check_plate_gate(t, gate, c);
+    return;
+  }
   if (gate.kind == "constant") check_theory(t.place("predict"), gate, c);
   if (contains({"exact", "constant", "order"}, gate.kind)) check_comparable(t.place("quantity"), gate, c);
   const Place quantity = t.place("quantity");
@@ -458,6 +545,7 @@ void check_where(const Place& place, const GateSpec& gate, const Case& c) {
   met("method", gate.where.method, [](const Leaf& run) { return run.method; });
   met("cells", gate.where.cells, [](const Leaf& run) { return run.cells; });
   met("courant", gate.where.courant, [](const Leaf& run) { return run.courant; });
+  met("variant", gate.where.variant, [](const Leaf& run) { return run.variant; });
   for (const auto& [name, values] : gate.where.parameters)
     met(name.c_str(), values, [&, key = name](const Leaf& run) {
       return run.parameters.contains(key) ? run.parameters.at(key) : std::nan("");

@@ -12,6 +12,7 @@
 namespace diptych::cases {
 
 inline const Names methods{"fem", "mpm-usf", "mpm-usl", "mpm-musl"};
+inline const Names diffusion_methods{"diffusion"};
 inline const Names fields{"stress", "velocity", "displacement"};
 /// What a run with several bars or plasticity tells beside its fields, each with what the exact solution says of it.
 inline const Names outcomes{"contact.begin",    "contact.early",       "contact.end",
@@ -20,6 +21,12 @@ inline const Names invariants{
     "energy.drift", "energy.lost", "energy.closure", "momentum.drift", "bits.power-of-two",
     "bits.mirror",  "bits.repeat", "bits.alone",     "bits.inviscid",  "cross.fem-on-half-the-cells"};
 
+/// Methods that can take the case's scene.
+const Names& methods_of(const Case&);
+/// Ids of a plate's variants, and "" for the case as it stands.
+Names variants_of(const Case&);
+/// Kinds of figures of the case's scene; the first is the usual one.
+Names figure_kinds(const Case&);
 /// What a `constant` gate may be measured against.
 Names theories();
 /// Quantities that a gate of this kind may judge in this case.

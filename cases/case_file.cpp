@@ -13,22 +13,16 @@
 #include <sstream>
 #include <system_error>
 
-#include "cases/case_checks.hpp"
+#include "cases/case_tables.hpp"
 #include "cases/expression.hpp"
 #include "cases/leaf.hpp"
+#include "cases/plate_build.hpp"
 #include "cases/toml_table.hpp"
 
 namespace diptych::cases {
-namespace {
-
-// ---- rules of this schema -------------------------------------------------------------------------------------------
-
-const Names time_units{"s", "L/c"};
 
 Rule<std::string> formula() { return text("an expression in quotes"); }
-Rule<int> number_of_cells() { return whole(1, 10'000'000); }
 
-/// A value with its unit, { value = 0.5, unit = "L/c" }.
 Rule<Measured> with_unit(const Names& units, const Rule<double>& number) {
   const std::string allowed =
       fmt::format("a value with its unit, {{ value = ..., unit = {} }}, units {}", words(units.front()), joined(units));
@@ -43,6 +37,43 @@ Rule<Measured> with_unit(const Names& units, const Rule<double>& number) {
           },
           "; allowed: " + allowed};
 }
+
+Rule<std::string> constant_formula() {
+  return {[](const Place& place) -> std::optional<std::string> {
+    if (place.node->is_number()) {
+      const auto value = any_number().read(place);
+      return value ? std::optional(words(*value)) : std::nullopt;
+    }
+    return text("a number, or an expression of parameters in quotes").read(place);
+  }};
+}
+
+void read_parameters(Table& t, Case& c) {
+  Names reserved{"L", "E", "rho", "c", "pi", "x", "t", "_e", "_pi"};
+  if (c.plate) reserved.insert(reserved.end(), {"Lx", "Ly", "nu", "c_d", "c_s", "y"});
+  reserved.insert(reserved.end(), function_names().begin(), function_names().end());
+  for (const auto& [name, at, value] : t.entries()) {
+    const bool is_name =
+        !name.empty() && std::isdigit(static_cast<unsigned char>(name[0])) == 0 &&
+        name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") == std::string::npos;
+    const bool is_free = !contains(reserved, name);
+    if (!is_name)
+      t.place(name).say("found " + words(name) + " as a name; allowed: letters, digits and _, no digit first");
+    else if (!is_free)
+      t.place(name).say(fmt::format("found a name that expressions have already; allowed: other names than {}",
+                                    fmt::join(reserved, ", ")));
+    const double number = t.get(name, any_number(), 0.7);
+    if (is_name && is_free) c.parameters[name] = number;
+  }
+}
+
+namespace {
+
+// ---- rules of this schema -------------------------------------------------------------------------------------------
+
+const Names time_units{"s", "L/c"};
+
+Rule<int> number_of_cells() { return whole(1, 10'000'000); }
 
 /// The particles of one cell: natural coordinates in [0, 1], ascending, or their number n, which puts them at
 /// (2i - 1)/(2n).
@@ -77,7 +108,7 @@ Rule<std::string> quantity(const std::string& kind, const Case& c) {
             const auto name = text().read(place);
             if (!name || kind.empty()) return {};
             if (contains(allowed, *name)) return name;
-            for (const char* other : {"exact", "order", "invariant", "limit"})
+            for (const char* other : {"exact", "order", "invariant", "limit", "agreement"})
               if (contains(quantities_of(other, c), *name))
                 return place.refuse(words(*name) + ", which is not for kind = " + words(kind), joined(allowed));
             const bool probe = name->starts_with("probe.");
@@ -98,22 +129,6 @@ bool among(const Place& place, const std::vector<Value>& values, const std::vect
     good = false;
   }
   return good;
-}
-
-/// Entries that each have an id of their own.
-template <class Entry>
-std::vector<Entry> read_each(Table& parent, const std::string& key, const Case& c, Entry (*read)(Table&, const Case&)) {
-  std::vector<Entry> entries;
-  std::map<std::string, unsigned> lines;
-  parent.each(key, [&](Table& t) {
-    entries.push_back(read(t, c));
-    const std::string name = entries.back().id;
-    const Place place = t.place("id");
-    const auto [first, is_new] = lines.emplace(name, place.at.line);
-    if (!is_new && !name.empty())
-      place.refuse(words(name) + " again", fmt::format("an id of its own; line {} has this one", first->second));
-  });
-  return entries;
 }
 
 std::string read_expression(Table& t, const std::string& key, const Names& variables, const Case& c) {
@@ -150,37 +165,8 @@ material::Material read_material(Table& t) {
   return material;
 }
 
-void read_parameters(Table& t, Case& c) {
-  Names reserved{"L", "E", "rho", "c", "pi", "x", "t", "_e", "_pi"};
-  reserved.insert(reserved.end(), function_names().begin(), function_names().end());
-  for (const auto& [name, at, value] : t.entries()) {
-    const bool is_name =
-        !name.empty() && std::isdigit(static_cast<unsigned char>(name[0])) == 0 &&
-        name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") == std::string::npos;
-    const bool is_free = !contains(reserved, name);
-    if (!is_name)
-      t.place(name).say("found " + words(name) + " as a name; allowed: letters, digits and _, no digit first");
-    else if (!is_free)
-      t.place(name).say(fmt::format("found a name that expressions have already; allowed: other names than {}",
-                                    fmt::join(reserved, ", ")));
-    const double number = t.get(name, any_number(), 0.7);
-    if (is_name && is_free) c.parameters[name] = number;
-  }
-}
-
 std::function<void(Table&)> read_parameters_of(Case& c) {
   return [&c](Table& t) { read_parameters(t, c); };
-}
-
-/// A number, or a formula of parameters.
-Rule<std::string> constant_formula() {
-  return {[](const Place& place) -> std::optional<std::string> {
-    if (place.node->is_number()) {
-      const auto value = any_number().read(place);
-      return value ? std::optional(words(*value)) : std::nullopt;
-    }
-    return text("a number, or an expression of parameters in quotes").read(place);
-  }};
 }
 
 void read_bar(Table& t, Case& c, const std::optional<material::Material>& common, std::vector<Place>& velocities) {
@@ -298,15 +284,18 @@ std::map<std::string, std::vector<double>> read_values(Table& t, const Case& c) 
   return values;
 }
 
-Axes read_axes(Table& t, const Case& c) {
+Axes read_axes(Table& t, const Case& c, const Names& known_methods,
+               const std::vector<std::vector<double>>& usual_particles) {
   Axes axes;
-  axes.method = t.need("method", set_of(one_of(methods)));
+  axes.particles = usual_particles;
+  axes.method = t.need("method", set_of(one_of(known_methods)));
   axes.cells = t.need("cells", set_of(number_of_cells()));
   axes.courant =
       t.need("courant",
              set_of(positive("the time step is courant * cell size / wave speed, and a time step of 0 gets nowhere")));
   axes.particles = t.get("particles", set_of(particles()), axes.particles);
   t.maybe_table("parameters", [&](Table& p) { axes.parameters = read_values(p, c); });
+  if (c.plate) axes.variant = t.get("variant", set_of(one_of(variants_of(c))), axes.variant);
   return axes;
 }
 
@@ -397,7 +386,7 @@ bool among_swept(const Place& place, const std::map<std::string, std::vector<dou
 
 Where read_where(Table& t, const Case& c) {
   Where where;
-  where.method = t.get("method", one_or_set_of(one_of(methods)));
+  where.method = t.get("method", one_or_set_of(one_of(methods_of(c))));
   where.cells = t.get("cells", one_or_set_of(number_of_cells()));
   where.courant = t.get("courant", one_or_set_of(positive()));
   if (const Node* node = t.place("particles").node) {
@@ -410,6 +399,7 @@ Where read_where(Table& t, const Case& c) {
       where.particles = {*set};
   }
   t.maybe_table("parameters", [&](Table& p) { where.parameters = read_values(p, c); });
+  if (c.plate) where.variant = t.get("variant", one_or_set_of(one_of(variants_of(c))));
   const Axes axes = all_axes(c);
   among(t.place("method"), where.method, axes.method, "axes.method");
   among(t.place("cells"), where.cells, axes.cells, "axes.cells");
@@ -425,7 +415,9 @@ GateSpec read_gate(Table& t, const Case& c) {
   gate.declaration = t.declaration();
   gate.id = t.need("id", id());
   if (!gate.id.empty()) t.rename("gate " + words(gate.id) + ": ");
-  gate.kind = t.need("kind", one_of({"exact", "constant", "order", "invariant", "limit"}));
+  Names known_kinds{"exact", "constant", "order", "invariant", "limit"};
+  if (c.plate) known_kinds.push_back("agreement");
+  gate.kind = t.need("kind", one_of(known_kinds));
   gate.reason = t.need("reason", text());
   gate.slow = t.get("slow", flag());
   gate.quantity = t.need("quantity", quantity(gate.kind, c));
@@ -438,8 +430,14 @@ GateSpec read_gate(Table& t, const Case& c) {
     return t.applies(key, "quantity", gate.quantity, {quantity});
   };
   const bool limit = gate.kind == "limit";
-  if (of("times", {"exact", "constant", "order", "invariant"})) gate.times = read_times(t, c);
-  if (of("max", {"exact", "invariant"})) gate.max = t.must("max", not_negative());
+  if (of("times", {"exact", "constant", "order", "invariant", "agreement"})) gate.times = read_times(t, c);
+  if (of("max", {"exact", "invariant", "agreement"})) gate.max = t.must("max", not_negative());
+  if (c.plate && of("judged", {"agreement"})) {
+    gate.judged = t.need("judged", set_of(number_of_cells()));
+    among(t.place("judged"), gate.judged, all_axes(c).cells, "axes.cells");
+  }
+  if (c.plate && t.applies("level", "quantity", gate.quantity, {"contour.distance"}))
+    gate.level = t.need("level", positive());
   if (of("predict", {"constant", "limit"}) && (!limit || of_limit("predict", "critical_courant")))
     gate.predict = t.need("predict", one_of(limit ? Names{"stability-limit"} : theories()));
   if (of("ratio", {"constant", "limit"}) && (!limit || of_limit("ratio", "critical_courant")))
@@ -449,6 +447,7 @@ GateSpec read_gate(Table& t, const Case& c) {
   const bool probe = gate.quantity.starts_with("probe.");  // what else would be exact about it
   if (of("expect", probe ? Names{"order", "exact"} : Names{"order"})) gate.expect = t.must("expect", any_number());
   if (of("band", {"order"})) gate.band = t.must("band", interval());
+  if (of("over", {"order"})) gate.over_time_step = t.get("over", one_of({"cells", "courant"})) == "courant";
   if (of("levels_min", {"order"})) gate.levels_min = t.get("levels_min", whole(3, 100), gate.levels_min);
   check_gate(t, gate, c);
   if (!c.axes.empty() && where_is_read) check_where(t.place("where"), gate, c);
@@ -460,13 +459,19 @@ FigureSpec read_figure(Table& t, const Case& c) {
   figure.id = t.need("id", id());
   if (!figure.id.empty()) t.rename("figure " + words(figure.id) + ": ");
   figure.title = t.get("title", text());
-  figure.kind = t.get("kind", one_of({"profiles", "motion"}), figure.kind);
-  const auto of = [&](const char* key, const char* kind) { return t.applies(key, "kind", figure.kind, {kind}); };
-  if (of("field", "profiles")) figure.field = t.get("field", one_of(fields), figure.field);
-  if (of("times", "profiles")) figure.times = read_times(t, c);
-  if (of("captions", "profiles")) figure.captions = t.get("captions", list_of(text()));
-  if (of("magnify", "motion")) figure.magnify = t.get("magnify", positive(), figure.magnify);
-  if (of("zoom", "motion")) {
+  figure.kind = t.get("kind", one_of(figure_kinds(c)), figure_kinds(c).front());
+  const auto of = [&](const char* key, const Names& kinds) { return t.applies(key, "kind", figure.kind, kinds); };
+  if (c.plate) {
+    if (of("field", {"contours", "choices"}))
+      figure.field = t.get("field", one_of({"crack-density", "damage"}), "crack-density");
+    if (of("levels", {"contours", "choices"})) figure.levels = t.need("levels", set_of(positive()));
+  } else if (of("field", {"profiles"})) {
+    figure.field = t.get("field", one_of(fields), figure.field);
+  }
+  if (of("times", {"profiles", "contours", "choices"})) figure.times = read_times(t, c);
+  if (of("captions", {"profiles"})) figure.captions = t.get("captions", list_of(text()));
+  if (of("magnify", {"motion"})) figure.magnify = t.get("magnify", positive(), figure.magnify);
+  if (of("zoom", {"motion"})) {
     t.maybe_table("zoom", [&](Table& z) { figure.zoom = Zoom{z.need("x", interval()), z.need("t", interval())}; });
   }
   const std::size_t instants = figure.times.empty() ? c.times.size() : figure.times.size();
@@ -483,7 +488,7 @@ FigureSpec read_figure(Table& t, const Case& c) {
   };
   figure.cells = one_of_axis("cells", number_of_cells(), axes.cells);
   figure.choices = t.get("choices", text());
-  figure.methods = t.get("methods", set_of(one_of(methods)), axes.method);
+  figure.methods = t.get("methods", set_of(one_of(methods_of(c))), axes.method);
   const std::size_t before = t.mistakes();
   if (const Node* courant = t.place("courant").node; courant && courant->as<Node::Entries>()) {
     // { fem = 1.0, mpm-musl = 0.1 }: one for each method that is drawn
@@ -501,7 +506,7 @@ FigureSpec read_figure(Table& t, const Case& c) {
   }
   const bool one_set = t.has("particles") || axes.particles.size() == 1;
   if (one_set) figure.particles = one_of_axis("particles", particles(), axes.particles);
-  if (of("range", "profiles")) figure.range = t.maybe("range", interval());
+  if (of("range", {"profiles", "contours"})) figure.range = t.maybe("range", interval());
   t.maybe_table("parameters", [&](Table& p) {
     const auto given = read_values(p, c);
     among_swept(t.place("parameters"), given, c);
@@ -532,7 +537,7 @@ FigureSpec read_figure(Table& t, const Case& c) {
   const std::vector<Leaf> runs = leaves(c);
   for (const std::string& method : figure.methods) {
     const Leaf leaf{method, figure.cells, figure.courant_of(method),
-                    method == "fem" ? std::vector<double>{} : figure.particles, figure.parameters};
+                    method.starts_with("mpm") ? figure.particles : std::vector<double>{}, figure.parameters};
     if (good && !runs.empty() && std::find(runs.begin(), runs.end(), leaf) == runs.end())
       t.place("methods").refuse(
           fmt::format("{} with cells = {}, courant = {}{}{}", words(method), leaf.cells, words(leaf.courant),
@@ -542,6 +547,35 @@ FigureSpec read_figure(Table& t, const Case& c) {
   }
   return figure;
 }
+
+}  // namespace
+
+std::vector<AxesBlock> read_all_axes(Table& file, Case& c, const Names& known_methods,
+                                     const std::vector<std::vector<double>>& usual_particles) {
+  std::vector<AxesBlock> blocks;
+  const std::size_t before = file.mistakes();
+  file.one_or_each("axes", [&](Table& t) {
+    blocks.push_back({read_axes(t, c, known_methods, usual_particles), t.place("method"), t.place("courant")});
+  });
+  if (file.mistakes() == before)  // nothing is compared with axes that are not known
+    for (const AxesBlock& block : blocks) c.axes.push_back(block.axes);
+  return blocks;
+}
+
+void read_judgement(Table& file, Case& c) {
+  file.maybe_table("run", [&](Table& t) {
+    c.allow_unstable = t.get("allow_unstable", flag(), false);
+    c.ledger = t.get("ledger", flag(), true);
+  });
+  c.gates = read_each<GateSpec>(file, "gate", c, read_gate);
+  c.figures = read_each<FigureSpec>(file, "figure", c, read_figure);
+
+  if (c.gates.empty())
+    file.place("gate").say("missing; a case with no gate is an error; allowed: at least one [[gate]]");
+  check_gates(file.place("gate"), c);
+}
+
+namespace {
 
 Case read_file(Table& file) {
   Case c;
@@ -555,21 +589,15 @@ Case read_file(Table& file) {
   c.why = file.need("why", text());
   c.units = file.need("units", one_of({"SI", "paper"}));
   file.maybe_table("paper", [&](Table& t) { c.paper_figures = t.need("figures", set_of(text())); });
+  if (file.has("plate")) {
+    read_plate_case(file, c);
+    return c;
+  }
   std::size_t before = file.mistakes();
   const std::vector<Place> velocities = read_bars(file, c);
 
-  struct Block {
-    Axes axes;
-    Place method, courant;
-  };
-  std::vector<Block> blocks;
   bool bars_are_read = file.mistakes() == before;
-  before = file.mistakes();
-  file.one_or_each("axes", [&](Table& t) {
-    blocks.push_back({read_axes(t, c), t.place("method"), t.place("courant")});
-  });
-  if (file.mistakes() == before)  // nothing is compared with axes that are not known
-    for (const Block& block : blocks) c.axes.push_back(block.axes);
+  const std::vector<AxesBlock> blocks = read_all_axes(file, c, methods, {{0.5}});
   for (std::size_t b = 0; b < velocities.size(); ++b) {
     if (check_constant(velocities[b], c.bars[b].velocity, c)) continue;
     c.bars[b].velocity.clear();
@@ -610,17 +638,8 @@ Case read_file(Table& file) {
     read_exact(t, c);
     if (loads_are_read && bars_are_read) check_solution(t.place("solution"), c);
   });
-  file.maybe_table("run", [&](Table& t) {
-    c.allow_unstable = t.get("allow_unstable", flag(), false);
-    c.ledger = t.get("ledger", flag(), true);
-  });
-  c.gates = read_each<GateSpec>(file, "gate", c, read_gate);
-  c.figures = read_each<FigureSpec>(file, "figure", c, read_figure);
-
-  if (c.gates.empty())
-    file.place("gate").say("missing; a case with no gate is an error; allowed: at least one [[gate]]");
-  check_gates(file.place("gate"), c);
-  for (const Block& block : blocks) {
+  read_judgement(file, c);
+  for (const AxesBlock& block : blocks) {
     check_methods(block.method, block.axes, c);
     if (!c.axes.empty() && bars_are_read) check_steps(block.courant, block.axes, c);
   }
@@ -630,6 +649,7 @@ Case read_file(Table& file) {
 }  // namespace
 
 std::map<std::string, double> expression_constants(const Case& c) {
+  if (c.plate) return plate_constants(c);
   std::map<std::string, double> constants = c.parameters;
   constants["L"] = c.first().length;
   constants["E"] = material::youngs_modulus(c.first().material);

@@ -16,10 +16,12 @@
 #include "cases/catalogue.hpp"
 #include "cases/figures.hpp"
 #include "cases/gates.hpp"
+#include "cases/plate_build.hpp"
 #include "cases/provenance.hpp"
 #include "cases/runner.hpp"
 #include "reports/figure.hpp"
 #include "reports/files.hpp"
+#include "reports/plate_figure.hpp"
 #include "reports/tables.hpp"
 
 namespace diptych::cases {
@@ -46,10 +48,10 @@ std::function<void(std::size_t, std::size_t)> progress() {
 /// Runs, judges every gate and makes the figures.
 std::vector<reports::Case> measure(const std::vector<Case>& cases, const Options& options,
                                    const std::atomic<bool>& cancelled) {
-  auto results = run_cases(cases, {threads_of(options), &cancelled, options.ledger, progress()});
+  auto results = run_cases(cases, {threads_of(options), &cancelled, options.ledger, options.fields, progress()});
   for (std::size_t i = 0; i < cases.size(); ++i) {
     for (const GateSpec& gate : cases[i].gates) results[i].gates.push_back(judge(cases[i], gate, results[i].runs));
-    results[i].figures = make_figures(cases[i], results[i].runs);
+    add_figures(cases[i], results[i]);
   }
   return results;
 }
@@ -104,6 +106,27 @@ void write_ledgers(const reports::Case& result, const std::filesystem::path& dir
   fmt::print("{}\n", directory.string());
 }
 
+/// One collection for each run and kind of points: mesh or particles, and cells.
+void write_fields(const reports::Case& result, const std::filesystem::path& directory) {
+  for (const auto& run : result.runs) {
+    std::string name = run.label();
+    std::replace(name.begin(), name.end(), ' ', '_');
+    std::map<std::string, std::vector<std::pair<double, std::string>>> collections;
+    for (std::size_t s = 0; s < run.samples.size(); ++s) {
+      for (const auto& piece : run.samples[s].files) {
+        const std::string file = fmt::format("{}.{}.{:04}.vtu", name, piece.name, s);
+        reports::write_vtu(directory / file, piece.mesh, piece.arrays);
+        collections[piece.name].emplace_back(run.samples[s].time, file);
+      }
+    }
+    for (const auto& [kind, steps] : collections) {
+      const auto path = directory / fmt::format("{}.{}.pvd", name, kind);
+      reports::write_pvd(path, steps);
+      fmt::print("{}\n", path.string());
+    }
+  }
+}
+
 /// Where results are to go must take them before the runs are paid for.
 void prepare(const std::filesystem::path& out) {
   std::error_code problem;
@@ -119,9 +142,9 @@ int draw_figures(const std::vector<reports::Case>& results, const std::filesyste
                  const std::set<std::string>& wanted) {
   int undrawn = 0;
   bool missing = false;
-  for (const auto& result : results) {
-    for (const auto& figure : result.figures) {
-      if (!wanted.empty() && !wanted.count(figure.id)) continue;
+  const auto draw_each = [&](const auto& figures) {
+    for (const auto& figure : figures) {
+      if (!wanted.empty() && !wanted.count(figure.id.substr(0, figure.id.find('.')))) continue;
       std::string message;
       const reports::Drawn drawn = reports::draw(figure, directory, message);
       if (drawn == reports::Drawn::yes) {
@@ -132,6 +155,17 @@ int draw_figures(const std::vector<reports::Case>& results, const std::filesyste
       undrawn += drawn == reports::Drawn::gnuplot_failed;
       fmt::print("{}  (script and data only)\n", (directory / (figure.id + ".gp")).string());
       if (drawn == reports::Drawn::gnuplot_failed) fmt::print(stderr, "gnuplot failed on {}: {}\n", figure.id, message);
+    }
+  };
+  for (const auto& result : results) {
+    draw_each(result.figures);
+    draw_each(result.problem_figures);
+    draw_each(result.plate_figures);
+    for (const auto& [name, page] : result.pages) {
+      if (!wanted.empty() && !wanted.count(name)) continue;
+      const auto path = directory / (name + ".html");
+      reports::write_choices_page(page, path);
+      fmt::print("{}\n", path.string());
     }
   }
   if (missing)
@@ -180,11 +214,19 @@ int run_command(const Options& options, const std::atomic<bool>& cancelled) {
   auto results = measure(cases, options, cancelled);
   for (auto& result : results) {
     for (auto& figure : result.figures) figure.id = result.id + "." + figure.id;  // two cases may call theirs the same
+    for (auto& figure : result.problem_figures) figure.id = result.id + "." + figure.id;
+    for (auto& figure : result.plate_figures) figure.id = result.id + "." + figure.id;
+    for (auto& [name, page] : result.pages) {
+      name = result.id + "." + name;
+      for (auto& row : page.rows)
+        if (!row.picture.empty()) row.picture = result.id + "." + row.picture;
+    }
   }
   for (const auto& result : results) {
     fmt::print("{}\n", reports::text_table(result));
     write_tables(result, options.out / "tables");
     fmt::print("{}\n", (options.out / "tables" / (result.id + ".{txt,csv,tex}")).string());
+    if (options.fields) write_fields(result, options.out / "fields" / result.id);
     if (options.ledger) write_ledgers(result, options.out / "ledgers" / result.id);
   }
   const int undrawn = draw_figures(results, options.out / "figures", {});
@@ -258,10 +300,36 @@ std::string timing(const LoadSpec& load) {
   return text;
 }
 
+void show_runs(const Case& c) {
+  fmt::print("  runs       {}\n", leaves(c).size());
+  for (const Leaf& leaf : leaves(c)) {
+    fmt::print("             {} {} cells, Courant {:g}{}{}\n", leaf.method, leaf.cells, leaf.courant,
+               leaf.particles.empty() ? "" : ", particles at " + particles_label(leaf.particles),
+               parameters_label(leaf).empty() ? "" : ", " + parameters_label(leaf));
+  }
+}
+
+void show_plate(const Case& c) {
+  fmt::print("{}: {}\n  file       {}\n  claim      {}\n  why        {}\n  plate      {}\n", c.id, c.title,
+             c.path.string(), c.claim, c.why, words_of(*c.plate));
+  for (const auto& [name, value] : c.parameters) fmt::print("  parameter  {} = {:g}\n", name, value);
+  for (const PlateVariant& variant : c.variants) fmt::print("  variant    {}: {}\n", variant.id, variant.says);
+  fmt::print("  exact      {}\n  features   {}\n  sampled    t = {} s\n", c.plate->exact.solution,
+             fmt::join(c.features, ", "), fmt::join(c.times, ", "));
+  show_runs(c);
+  for (const PlateProbe& probe : c.plate_probes) fmt::print("  probe      {} {}\n", probe.id, probe.reads);
+  for (const GateSpec& gate : c.gates) fmt::print("  gate       {:24} {}\n", gate.id, gate.declaration);
+  for (const FigureSpec& figure : c.figures) fmt::print("  figure     {}\n", figure.id);
+}
+
 }  // namespace
 
 int show_command(const Options& options) {
   for (const Case& c : select_cases(options.selectors)) {
+    if (c.plate) {
+      show_plate(c);
+      continue;
+    }
     const auto end_text = [](Support s) { return s == Support::fixed ? "fixed" : "free"; };
     fmt::print("{}: {}\n  file       {}\n  claim      {}\n  why        {}\n", c.id, c.title, c.path.string(), c.claim,
                c.why);
@@ -292,12 +360,7 @@ int show_command(const Options& options) {
     fmt::print("  exact      {}\n  features   {}\n  sampled    t = {} {}{}\n", c.exact.solution,
                fmt::join(c.features, ", "), fmt::join(c.times, ", "), c.time_unit,
                c.from_contact ? " from contact" : "");
-    fmt::print("  runs       {}\n", leaves(c).size());
-    for (const Leaf& leaf : leaves(c)) {
-      fmt::print("             {} {} cells, Courant {:g}{}{}\n", leaf.method, leaf.cells, leaf.courant,
-                 leaf.particles.empty() ? "" : ", particles at " + particles_label(leaf.particles),
-                 leaf.parameters.empty() ? "" : ", " + parameters_label(leaf.parameters));
-    }
+    show_runs(c);
     for (const Probe& probe : c.probes) {
       fmt::print("  probe      {} {} at {:g} {}\n", probe.id, probe.field, probe.at.value, probe.at.unit);
     }

@@ -15,6 +15,7 @@ struct Options {
   int threads = 0;  ///< 0: all there are
   bool quick = false;
   bool declarations = false;
+  bool fields = false;  ///< run: also write the fields of plates at the sample times
   bool ledger = false;
 };
 

@@ -69,7 +69,7 @@ struct Expression::Impl {
   Impl(const std::string& formula_, const std::vector<std::string>& variables_,
        const std::map<std::string, double>& constants_)
       : formula(formula_), variables(variables_), constants(constants_) {
-    if (variables.size() > values.size()) throw std::logic_error("an expression has at most two variables");
+    if (variables.size() > values.size()) throw std::logic_error("an expression has at most three variables");
     if (formula.find_first_not_of(" \t\r\n") == std::string::npos)
       throw InputError("found an empty expression; allowed: a formula of " + names_in_words());
     if (formula.find('\0') != std::string::npos)  // where muParser would stop reading
@@ -124,7 +124,7 @@ struct Expression::Impl {
   std::string formula;
   std::vector<std::string> variables;
   std::map<std::string, double> constants;
-  std::array<double, 2> values{};
+  std::array<double, 3> values{};
   mu::Parser parser;
 };
 
@@ -158,7 +158,14 @@ double Expression::operator()(double first) const {
 
 double Expression::operator()(double first, double second) const {
   if (impl_->variables.size() != 2) throw std::logic_error("expression called with 2 arguments: " + impl_->formula);
-  impl_->values = {first, second};
+  impl_->values[0] = first;
+  impl_->values[1] = second;
+  return impl_->parser.Eval();
+}
+
+double Expression::operator()(double first, double second, double third) const {
+  if (impl_->variables.size() != 3) throw std::logic_error("expression called with 3 arguments: " + impl_->formula);
+  impl_->values = {first, second, third};
   return impl_->parser.Eval();
 }
 

@@ -1,4 +1,4 @@
-// Expressions of x and t in case files (muParser behind a plain header).
+// Expressions of x, y and t in case files (muParser behind a plain header).
 #pragma once
 
 #include <map>
@@ -24,9 +24,10 @@ class Expression {
   Expression& operator=(Expression) noexcept;
   ~Expression();
 
-  double operator()() const;                             ///< for none
-  double operator()(double first) const;                 ///< for one variable
-  double operator()(double first, double second) const;  ///< for two
+  double operator()() const;                                           ///< for none
+  double operator()(double first) const;                               ///< for one variable
+  double operator()(double first, double second) const;                ///< for two
+  double operator()(double first, double second, double third) const;  ///< for three
 
  private:
   struct Impl;

@@ -7,6 +7,7 @@
 
 #include "cases/build.hpp"
 #include "cases/leaf.hpp"
+#include "cases/plate_figures.hpp"
 
 namespace diptych::cases {
 namespace {
@@ -213,11 +214,18 @@ void add_profiles(const Case& c, const FigureSpec& spec, const std::vector<repor
 
 }  // namespace
 
-std::vector<reports::Figure> make_figures(const Case& whole, const std::vector<reports::Run>& runs) {
-  std::vector<reports::Figure> figures;
+void add_figures(const Case& whole, reports::Case& result) {
+  const std::vector<reports::Run>& runs = result.runs;
   for (const FigureSpec& spec : whole.figures) {
     Case c = whole;
     for (const auto& [name, value] : spec.parameters) c.parameters[name] = value;
+    if (c.plate) {
+      if (spec.kind == "problem") result.problem_figures.push_back(problem_figure(c, spec));
+      if (spec.kind == "contours") result.plate_figures.push_back(contour_figure(c, spec, runs));
+      if (spec.kind == "history") result.figures.push_back(history_figure(c, spec, runs));
+      if (spec.kind == "choices") add_choices(c, spec, runs, result);
+      continue;
+    }
     reports::Figure figure;
     figure.id = spec.id;
     const std::string title = spec.title.empty() ? c.title : spec.title;
@@ -228,9 +236,8 @@ std::vector<reports::Figure> make_figures(const Case& whole, const std::vector<r
     } else {
       add_profiles(c, spec, runs, figure);
     }
-    figures.push_back(std::move(figure));
+    result.figures.push_back(std::move(figure));
   }
-  return figures;
 }
 
 }  // namespace diptych::cases

@@ -8,7 +8,8 @@
 
 namespace diptych::cases {
 
-/// The case's figures, drawn from its completed runs. A figure whose runs are missing says so in its notes.
-std::vector<reports::Figure> make_figures(const Case&, const std::vector<reports::Run>&);
+/// Fills in the result's figures (and of a plate its page), drawn from its completed runs. A figure whose runs are
+/// missing says so.
+void add_figures(const Case&, reports::Case&);
 
 }  // namespace diptych::cases

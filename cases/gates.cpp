@@ -8,7 +8,9 @@
 #include <optional>
 
 #include "analytic/discrete.hpp"
+#include "cases/agreement.hpp"
 #include "cases/build.hpp"
+#include "cases/judging.hpp"
 #include "cases/leaf.hpp"
 #include "reports/tables.hpp"
 
@@ -25,12 +27,6 @@ constexpr double floor_of_noise = 100 * 2.3e-16;
 // An error above this part of the field's scale has not begun to converge.
 constexpr double saturated = 0.5;
 
-/// A gate stops being judged where it cannot be: the verdict and the reason.
-struct Stop {
-  Verdict verdict;
-  std::string message;
-};
-
 struct Reading {
   const Run* run;
   double time;  ///< asked, or NaN for quantities of the whole run
@@ -44,7 +40,11 @@ std::pair<std::string, std::string> split(const std::string& quantity) {
   return {quantity.substr(0, dot), dot == std::string::npos ? "" : quantity.substr(dot + 1)};
 }
 
-bool is_field(const std::string& name) { return name == "stress" || name == "velocity" || name == "displacement"; }
+/// "stress.L2" and the like, as against quantities of the whole run.
+bool is_field(const std::string& name, const std::string& norm) {
+  return (name == "stress" || name == "velocity" || name == "displacement" || name == "concentration") &&
+         (norm == "L1" || norm == "L2" || norm == "Linf");
+}
 
 analytic::Norm norm_of(const std::string& name) {
   return name == "L1" ? analytic::Norm::l1 : name == "L2" ? analytic::Norm::l2 : analytic::Norm::linf;
@@ -59,17 +59,11 @@ analytic::Quantity quantity_of(const std::string& field) {
 Leaf leaf_of(const Case& c, const Run& run) {
   for (const Leaf& leaf : leaves(c)) {
     if (leaf.method == run.method && leaf.cells == run.cells && leaf.courant == run.courant_asked &&
-        particles_label(leaf.particles) == run.particles && parameters_label(leaf.parameters) == run.parameters) {
+        particles_label(leaf.particles) == run.particles && parameters_label(leaf) == run.parameters) {
       return leaf;
     }
   }
   throw std::logic_error("run " + run.label() + " is not one of case " + c.id);
-}
-
-void check_judgeable(const Run& run) {
-  if (run.status == "unstable") throw Stop{Verdict::unstable, run.label() + ": " + run.message};
-  if (run.status != "completed") throw Stop{Verdict::error, run.label() + ": " + run.status + ": " + run.message};
-  if (!run.invalid.empty()) throw Stop{Verdict::invalid, run.label() + ": " + run.invalid};
 }
 
 bool wanted(const GateSpec& gate, double time) {
@@ -116,7 +110,7 @@ std::vector<Reading> read(const Case& c, const GateSpec& gate, const std::vector
     if (!matches(gate.where, leaf_of(c, run))) continue;
     check_judgeable(run);
     const std::size_t before = readings.size();
-    if (is_field(head) || head == "probe") {
+    if (is_field(head, tail) || head == "probe") {
       read_field(c, gate, run, readings);
     } else if (run.measures.count(gate.quantity)) {
       const auto predicted = run.measures.find(gate.quantity + ".predicted");
@@ -125,7 +119,7 @@ std::vector<Reading> read(const Case& c, const GateSpec& gate, const std::vector
                           run.label()});
     }
     const std::size_t planned =
-        is_field(head) || head == "probe" ? (gate.times.empty() ? c.times.size() : gate.times.size()) : 1;
+        is_field(head, tail) || head == "probe" ? (gate.times.empty() ? c.times.size() : gate.times.size()) : 1;
     if (readings.size() - before != planned) {
       throw Stop{Verdict::invalid, fmt::format("{} gave {} of {} values of {}", run.label(), readings.size() - before,
                                                planned, gate.quantity)};
@@ -137,11 +131,6 @@ std::vector<Reading> read(const Case& c, const GateSpec& gate, const std::vector
       throw Stop{Verdict::invalid, fmt::format("{}: {} is {}", r.what, gate.quantity, r.value)};
   }
   return readings;
-}
-
-void hold(Gate& result, Check check) {
-  check.passed = check.judged >= check.low && check.judged <= check.high;  // false for NaN
-  result.checks.push_back(std::move(check));
 }
 
 void judge_maximum(const GateSpec& gate, const std::vector<Reading>& readings, Gate& result) {
@@ -174,7 +163,7 @@ void judge_ratio(const GateSpec& gate, const std::vector<Reading>& readings, Gat
 /// The order written in the case file must be the one that theory gives, where theory has one.
 void check_expectation(const Case& c, const GateSpec& gate, const Run& run) {
   const auto [field, norm] = split(gate.quantity);
-  if (!is_field(field)) return;
+  if (!is_field(field, norm) || c.plate) return;
   const Leaf leaf = leaf_of(c, run);
   const auto exact = make_exact(with_parameters(c, leaf), leaf);
   if (!exact) return;
@@ -188,29 +177,32 @@ void check_expectation(const Case& c, const GateSpec& gate, const Run& run) {
 
 void judge_order(const Case& c, const GateSpec& gate, const std::vector<Reading>& readings, Gate& result) {
   const auto [low, high] = *gate.band;
-  result.formula = fmt::format("slope of log {} over log h, expected {:.4g}, within [{:g}, {:g}]", gate.quantity,
-                               *gate.expect, low, high);
+  const bool over_time = gate.over_time_step;
+  result.formula = fmt::format("slope of log {} over log {}, expected {:.4g}, within [{:g}, {:g}]", gate.quantity,
+                               over_time ? "Δt" : "h", *gate.expect, low, high);
   std::map<std::string, std::vector<Reading>> groups;  // all but the mesh held fast
   for (const Reading& r : readings) {
-    groups[fmt::format("{} C={:g}{}{}{}", r.run->method, r.run->courant_asked,
+    groups[fmt::format("{} {}{}{}{}", r.run->method,
+                       over_time ? fmt::format("N={}", r.run->cells) : fmt::format("C={:g}", r.run->courant_asked),
                        r.run->particles.empty() ? "" : " particles " + r.run->particles,
                        r.run->parameters.empty() ? "" : " " + r.run->parameters,
                        std::isnan(r.time) ? "" : fmt::format(", t = {:g} {}", r.time, c.time_unit))]
         .push_back(r);
   }
   for (auto& [name, group] : groups) {
-    std::sort(group.begin(), group.end(),
-              [](const Reading& a, const Reading& b) { return a.run->cells < b.run->cells; });
+    const auto size = [&](const Reading& r) { return over_time ? r.run->time_step : r.run->cell_size; };
+    std::sort(group.begin(), group.end(), [&](const Reading& a, const Reading& b) { return size(a) > size(b); });
     check_expectation(c, gate, *group.front().run);
     if (static_cast<int>(group.size()) < gate.levels_min) {
       throw Stop{Verdict::invalid,
-                 fmt::format("{}: {} meshes, at least {} are needed", name, group.size(), gate.levels_min)};
+                 fmt::format("{}: {} {}, at least {} are needed", name, group.size(),
+                                                over_time ? "time steps" : "meshes", gate.levels_min)};
     }
     std::vector<double> sizes, errors;
     for (const Reading& r : group) {
-      if (!sizes.empty() && !(r.run->cell_size < sizes.back()))
-        throw Stop{Verdict::invalid, name + ": two meshes are the same"};
-      sizes.push_back(r.run->cell_size);
+      if (!sizes.empty() && !(size(r) < sizes.back()))
+        throw Stop{Verdict::invalid, name + (over_time ? ": two time steps are the same" : ": two meshes are the same")};
+      sizes.push_back(size(r));
       errors.push_back(r.value);
     }
     if (!(errors.back() > floor_of_noise)) {
@@ -227,7 +219,8 @@ void judge_order(const Case& c, const GateSpec& gate, const std::vector<Reading>
       throw Stop{Verdict::invalid, fmt::format("{}: the errors lie on no line: slope {:.3f} ± {:.3f}", name, fit.order,
                                                fit.standard_error)};
     }
-    hold(result, {fmt::format("{} ({} meshes, ± {:.3f})", name, fit.levels, fit.standard_error), fit.order,
+    hold(result, {fmt::format("{} ({} {}, ± {:.3f})", name, fit.levels, over_time ? "steps" : "meshes",
+                              fit.standard_error), fit.order,
                   *gate.expect, low, high, fit.order, false});
   }
 }
@@ -261,6 +254,11 @@ Gate judge(const Case& c, const GateSpec& gate, const std::vector<Run>& runs) {
   try {
     if (!gate.outcome.empty()) {
       judge_blow_up(c, gate, runs, result);
+    } else if (gate.kind == "agreement") {
+      std::vector<const Run*> spoken_of;
+      for (const Run& run : runs)
+        if (matches(gate.where, leaf_of(c, run))) spoken_of.push_back(&run);
+      judge_agreement(c, gate, spoken_of, result);
     } else {
       const auto readings = read(c, gate, runs);
       if (gate.max) judge_maximum(gate, readings, result);

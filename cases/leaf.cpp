@@ -28,6 +28,8 @@ std::vector<Parameters> combinations(const std::map<std::string, std::vector<dou
   return all;
 }
 
+bool has_particles(const std::string& method) { return method.starts_with("mpm"); }
+
 }  // namespace
 
 std::vector<Leaf> leaves(const Case& c) {
@@ -40,8 +42,10 @@ std::vector<Leaf> leaves(const Case& c) {
       for (const auto& particles : block.particles) {
         for (const double courant : block.courant) {
           for (const Parameters& parameters : combinations(block.parameters)) {
-            for (const int cells : block.cells) {
-              add({method, cells, courant, method == "fem" ? std::vector<double>{} : particles, parameters});
+            for (const std::string& variant : block.variant) {
+              for (const int cells : block.cells)
+                add({method, cells, courant, has_particles(method) ? particles : std::vector<double>{}, parameters,
+                     variant});
             }
           }
         }
@@ -57,11 +61,14 @@ bool matches(const Where& where, const Leaf& leaf) {
     if (own == leaf.parameters.end() || !allowed(values, own->second)) return false;
   }
   return allowed(where.method, leaf.method) && allowed(where.cells, leaf.cells) &&
-         allowed(where.courant, leaf.courant) && (leaf.method == "fem" || allowed(where.particles, leaf.particles));
+         allowed(where.courant, leaf.courant) && allowed(where.variant, leaf.variant) &&
+         (!has_particles(leaf.method) || allowed(where.particles, leaf.particles));
 }
 
 Case with_parameters(Case c, const Leaf& leaf) {
   for (const auto& [name, value] : leaf.parameters) c.parameters[name] = value;
+  for (const PlateVariant& variant : c.variants)
+    if (variant.id == leaf.variant) c.plate = variant.plate;
   return c;
 }
 
@@ -69,6 +76,11 @@ std::string parameters_label(const Parameters& parameters) {
   std::string label;
   for (const auto& [name, value] : parameters) label += fmt::format("{}{}={}", label.empty() ? "" : " ", name, value);
   return label;
+}
+
+std::string parameters_label(const Leaf& leaf) {
+  const std::string parameters = parameters_label(leaf.parameters);
+  return leaf.variant + (leaf.variant.empty() || parameters.empty() ? "" : " ") + parameters;
 }
 
 std::string particles_label(const std::vector<double>& positions) {

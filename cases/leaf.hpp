@@ -14,6 +14,7 @@ struct Leaf {
   double courant = 0;
   std::vector<double> particles;  ///< empty for FEM
   Parameters parameters = {};     ///< swept ones with their values
+  std::string variant = {};       ///< of a plate
   bool operator==(const Leaf&) const = default;
 };
 
@@ -24,6 +25,8 @@ bool matches(const Where&, const Leaf&);
 Case with_parameters(Case, const Leaf&);
 /// "v0=0.1": the swept parameters.
 std::string parameters_label(const Parameters&);
+/// The same with the variant's name before them: what tells runs of one method and mesh apart.
+std::string parameters_label(const Leaf&);
 /// "0.5" or "0.25 0.75": how tables and figures name the particles of a cell.
 std::string particles_label(const std::vector<double>&);
 

@@ -19,8 +19,10 @@
 #include "cases/build.hpp"
 #include "cases/case_file.hpp"
 #include "cases/curves.hpp"
+#include "cases/measures.hpp"
 #include "cases/norms.hpp"
 #include "cases/outcomes.hpp"
+#include "cases/plate_runner.hpp"
 #include "cases/probe.hpp"
 #include "fem/bar.hpp"
 #include "mpm/bar.hpp"
@@ -29,10 +31,6 @@ namespace diptych::cases {
 namespace {
 
 using analytic::Quantity;
-
-// A run's number of steps is rounded up, never to nearest: at the limit one step fewer is unstable. The slack lets a
-// Courant number that fits the time exactly but for round-off take the steps it asks for.
-constexpr double round_off = 1e-12;
 
 constexpr std::array<std::pair<Quantity, const char*>, 3> quantities{
     {{Quantity::stress, "stress"}, {Quantity::velocity, "velocity"}, {Quantity::displacement, "displacement"}}};
@@ -67,23 +65,6 @@ Stepping plan(const Case& c, const Scene& scene, const Leaf& leaf) {
   }
   stepping.books = c.ledger ? Books::sums : Books::off;
   return stepping;
-}
-
-bool asks_for(const Case& c, const Leaf& leaf, const std::string& quantity) {
-  return std::any_of(c.gates.begin(), c.gates.end(),
-                     [&](const GateSpec& gate) { return gate.quantity == quantity && matches(gate.where, leaf); });
-}
-
-void measure_ledger(const Case& c, const LedgerSums& sums, reports::Run& run) {
-  run.finite = run.finite && sums.finite;
-  if (!sums.finite || !(sums.held > 0)) return;  // where nothing moved there is no measure, and a gate on it is INVALID
-  double mass = 0;
-  for (const BarSpec& bar : c.bars) mass += material::density(bar.material) * bar.length;
-  const auto relative = [](double value, double scale) { return scale > 0 ? value / scale : value; };
-  run.measures["energy.drift"] = relative(sums.taken, sums.held);
-  run.measures["energy.lost"] = relative(sums.last.contact + sums.last.scheme + sums.last.lost, sums.held);
-  run.measures["energy.closure"] = relative(sums.lost, sums.held);
-  run.measures["momentum.drift"] = relative(sums.momentum, std::sqrt(2 * mass * sums.kinetic));
 }
 
 /// Numbers that differ between two records after scaling; a different number of samples counts as one more. NaN where
@@ -182,11 +163,9 @@ void measure_against_fem(const Case& c, const Leaf& leaf, const Scene& scene, co
   if (largest > 0) run.measures[quantity] = difference / largest;
 }
 
-/// Largest Courant number, to one part in a thousand, at which the scene stays bounded for the given number of steps.
-/// The bracket opens around the predicted limit until one end is stable and the other is not, and closes without
-/// looking at the prediction again. NaN where no such bracket is found.
-double bisect_limit(const Scene& scene, const Leaf& leaf, double predicted, long steps,
-                    const std::atomic<bool>* cancelled) {
+/// By bisection, at which the scene stays bounded for the given number of steps.
+double find_limit(const Scene& scene, const Leaf& leaf, double predicted, long steps,
+                  const std::atomic<bool>* cancelled) {
   const auto stable = [&](double courant) {
     Stepping trial;
     trial.time_step = courant * cell_time(scene, leaf);
@@ -194,15 +173,7 @@ double bisect_limit(const Scene& scene, const Leaf& leaf, double predicted, long
     trial.cancelled = cancelled;
     return solve(scene, leaf, trial).outcome == Outcome::completed;
   };
-  double low = predicted / 2, high = predicted * 2;
-  for (int wider = 0; wider < 6 && !stable(low); ++wider) low /= 2;
-  for (int wider = 0; wider < 6 && stable(high); ++wider) high *= 2;
-  if (!stable(low) || stable(high)) return std::nan("");
-  while (high - low > 1e-3 * high) {
-    const double middle = (low + high) / 2;
-    (stable(middle) ? low : high) = middle;
-  }
-  return (low + high) / 2;
+  return bisect_limit(stable, predicted);
 }
 
 /// In the checkerboard that blows up first a point is compressed every other step, so viscosity of compression alone is
@@ -215,7 +186,7 @@ void measure_limit(const Case& c, const Leaf& leaf, const Scene& scene, const st
     if (gate.quantity != "critical_courant" || !matches(gate.where, leaf)) continue;
     double predicted = analytic::stability_limit(discretisation(c, leaf, leaf.courant));
     if (c.viscosity) predicted = analytic::viscous_stability_limit(predicted, blow_up_strength(c));
-    run.measures["critical_courant"] = bisect_limit(scene, leaf, predicted, gate.steps, cancelled);
+    run.measures["critical_courant"] = find_limit(scene, leaf, predicted, gate.steps, cancelled);
     if (cancelled && *cancelled) run.status = "cancelled";
     run.measures["critical_courant.predicted"] = predicted;
     return;
@@ -258,47 +229,12 @@ reports::Sample measure_sample(const Case& c, const Leaf& leaf, const Snapshot& 
   return sample;
 }
 
-std::string status_of(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::completed: return "completed";
-    case Outcome::unstable: return "unstable";
-    case Outcome::left_grid: return "left-grid";
-    case Outcome::cancelled: return "cancelled";
-  }
-  return "error";
-}
-
 /// How much before their ends meet bars feel each other through the grid.
 void measure_early_contact(const Case& c, const Leaf& leaf, const Record& record, reports::Run& run) {
   const double ends_meet = contact_time(c, fem_on(leaf.cells)), predicted = ends_meet - contact_time(c, leaf);
   if (record.touches.empty() || !std::isfinite(ends_meet) || leaf.method == "fem") return;
   run.measures["contact.early"] = ends_meet - record.touches.front().from;
   run.measures["contact.early.predicted"] = predicted;
-}
-
-/// Why a completed run cannot be judged, or nothing.
-std::string why_invalid(const Case& c, const Record& record, const reports::Run& run) {
-  if (record.outcome != Outcome::completed) return {};
-  if (!run.finite) return "a number is not finite";
-  std::vector<std::string> declared = c.features;
-  if (run.method == "fem") std::erase(declared, "convection");  // its mesh goes with the bar
-  if (record.features != declared) {
-    return fmt::format("active features [{}] are not the declared [{}]", fmt::join(record.features, ", "),
-                       fmt::join(declared, ", "));
-  }
-  if (run.samples.size() != c.times.size()) {
-    return fmt::format("{} of {} sample times were reached", run.samples.size(), c.times.size());
-  }
-  for (const auto& sample : run.samples) {
-    for (const auto& e : sample.errors) {
-      if (!(std::isfinite(e.l1) && std::isfinite(e.l2) && std::isfinite(e.linf))) return "an error norm is not finite";
-      const double slack = 1 + 1e-9;
-      if (e.l1 > e.l2 * slack || e.l2 > e.linf * slack) {
-        return fmt::format("L1 ≤ L2 ≤ L∞ is violated: {} {} {}", e.l1, e.l2, e.linf);
-      }
-    }
-  }
-  return {};
 }
 
 constexpr double allowed_residual = 1e-4;  // room for the round-off of steep ramps; a wrong solution stands at 1
@@ -319,6 +255,7 @@ std::string doubt_impact(const analytic::ExactSolution* exact, double end) {
 
 /// The same of a solution that is one for all runs. One's own expressions are taken at their word.
 std::string doubt_exact(const Case& c) {
+  if (c.plate) return doubt_plane_exact(c);
   if (c.exact.solution == "impact" || c.exact.solution == "plastic-impact") return {};
   const auto exact = make_exact(c, {});
   // Long enough to see every front and its reflections, however short the runs are.
@@ -338,13 +275,14 @@ std::string doubt_exact(const Case& c) {
 }
 
 reports::Run describe(const Case& c, const Leaf& leaf) {
+  if (c.plate) return describe_plate(with_parameters(c, leaf), leaf);
   reports::Run run;
   run.case_id = c.id;
   run.method = leaf.method;
   run.cells = leaf.cells;
   run.courant_asked = leaf.courant;
   run.particles = particles_label(leaf.particles);
-  run.parameters = parameters_label(leaf.parameters);
+  run.parameters = parameters_label(leaf);
   run.cell_size = c.first().length / leaf.cells;
   run.unknowns = leaf.method == "fem" ? 0 - (c.left == Support::fixed) - (c.right == Support::fixed) : 0;
   for (const BarSpec& bar : c.bars) {
@@ -358,6 +296,7 @@ reports::Run describe(const Case& c, const Leaf& leaf) {
 }  // namespace
 
 reports::Run run_leaf(const Case& whole, const Leaf& leaf, const Running& running) {
+  if (whole.plate) return run_plate(whole, leaf, running);
   const Case c = with_parameters(whole, leaf);
   reports::Run run = describe(c, leaf);
   const Scene scene = make_scene(c, leaf.cells);
@@ -408,7 +347,9 @@ reports::Run run_leaf(const Case& whole, const Leaf& leaf, const Running& runnin
     const double time = static_cast<double>(record.snapshots[i].step) * stepping.time_step;
     run.samples.push_back(measure_sample(c, leaf, record.snapshots[i], c.times[i], time, exact.get(), run));
   }
-  measure_ledger(c, record.sums, run);
+  double mass = 0;
+  for (const BarSpec& bar : c.bars) mass += material::density(bar.material) * bar.length;
+  measure_ledger(mass, record.sums, run);
   for (const LedgerLine& line : record.ledger) {
     run.ledger.push_back({line.time, line.kinetic, line.strain, line.dissipated, line.viscous, line.contact,
                           line.scheme, line.work, line.lost, line.momentum, line.impulse});
@@ -418,22 +359,33 @@ reports::Run run_leaf(const Case& whole, const Leaf& leaf, const Running& runnin
   measure_bits(c, leaf, scene, stepping, record, run);
   measure_against_fem(c, leaf, scene, stepping, record, run);
   measure_limit(c, leaf, scene, running.cancelled, run);
-  run.invalid = why_invalid(c, record, run);
+  std::vector<std::string> declared = c.features;
+  if (run.method == "fem") std::erase(declared, "convection");  // its mesh goes with the bar
+  run.invalid = why_invalid(c, record.features, declared, run);
   if (run.invalid.empty()) run.invalid = doubt_impact(exact.get(), instant(c, leaf, c.times.back()));
   return run;
 }
 
+namespace {
+
+TimeStep bar_step(const Case& c, const Leaf& leaf) {
+  const Scene scene = make_scene(with_parameters(c, leaf), leaf.cells);
+  const double unit = cell_time(scene, leaf);
+  return {leaf.courant * unit, critical_time_step(scene, leaf), unit};
+}
+
+}  // namespace
+
 void refuse_unstable(const Case& c) {
   if (c.allow_unstable) return;
   for (const Leaf& leaf : leaves(c)) {
-    const Scene scene = make_scene(with_parameters(c, leaf), leaf.cells);
-    const double asked = leaf.courant * cell_time(scene, leaf), limit = critical_time_step(scene, leaf);
-    if (asked <= limit * (1 + round_off)) continue;
+    const TimeStep step = c.plate ? step_of(with_parameters(c, leaf), leaf) : bar_step(c, leaf);
+    if (step.asked <= step.limit * (1 + round_off)) continue;
     throw InputError(fmt::format(
         "{}: axes.courant: {} for {} with {} cells is a time step of {:.6g}, above the limit {:.6g} (Courant {:.6g}); "
         "allowed are values up to the limit, an [[axes]] of its own for each limit, or [run] allow_unstable = true to "
         "see it blow up",
-        c.path.string(), leaf.courant, leaf.method, leaf.cells, asked, limit, limit / cell_time(scene, leaf)));
+        c.path.string(), leaf.courant, leaf.method, leaf.cells, step.asked, step.limit, step.limit / step.unit));
   }
 }
 

@@ -137,6 +137,7 @@ class Table {
   Place place(const std::string& key);
   bool has(const std::string& key) { return place(key).node; }
   const Node::Entries& entries() const { return *place_.node->as<Node::Entries>(); }
+  const Place& itself() const { return place_; }
   void say(const std::string& message) const { place_.say(message); }
   unsigned line() const { return place_.at.line; }
   std::size_t mistakes() const { return place_.mistakes->size(); }  ///< so far, in the whole file

@@ -85,7 +85,8 @@ struct Touch {
 
 enum class Outcome { completed, unstable, left_grid, cancelled };
 
-struct Record {
+template <class Snapshot>
+struct BasicRecord {
   Outcome outcome = Outcome::completed;
   std::string message;  ///< why, where the outcome is not completed
   long steps = 0;       ///< taken
@@ -97,5 +98,7 @@ struct Record {
   Work work;
   std::vector<std::string> features;  ///< active in this run, sorted
 };
+
+using Record = BasicRecord<Snapshot>;
 
 }  // namespace diptych

@@ -39,9 +39,9 @@ inline bool finite(const Snapshot& s) {
 }
 
 /// Takes the steps of a run with any method's body, samples it and keeps its ledger.
-template <class Body>
-Record take_steps(Body& body, const Stepping& stepping) {
-  Record record;
+template <class Result = Record, class Body>
+Result take_steps(Body& body, const Stepping& stepping) {
+  Result record;
   Ledger ledger(stepping.books, stepping.time_step, body.first_ledger_time(), body.energy(), body.momentum(),
                 body.free_mass());
   const bool keep = stepping.books != Books::off;

@@ -1,34 +1,18 @@
 #include "reports/figure.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cmath>
-#include <cstdlib>
-#include <cstring>
-#include <fstream>
+#include <iomanip>
 #include <iterator>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wconversion"
-#pragma GCC diagnostic ignored "-Wsign-conversion"
-#pragma GCC diagnostic ignored "-Wshadow"
-#include <gnuplot-iostream.h>
-#pragma GCC diagnostic pop
-
-#include "reports/files.hpp"
-
-extern char** environ;
+#include "reports/gnuplot.hpp"
 
 namespace diptych::reports {
 namespace {
@@ -38,8 +22,7 @@ namespace fs = std::filesystem;
 // ---- sizes of the picture [px]
 
 constexpr double width = 900, left = 88, right = 24, column_gap = 36, row_gap = 14;
-constexpr double margin = 14, title_line = 24, note_line = 15, legend_line = 20, x_axis = 46;
-constexpr double label_line = 16, label_char = 7.0, note_char = 6.2, title_char = 9.4;  // generous for a sans face
+constexpr double legend_line = 20, x_axis = 46;
 constexpr double marker_spacing = 7.5;                         // closer markers melt into a band
 constexpr double motion_height = 450, motion_spacing = 22;     // of panels and of markers along a path
 constexpr double ticks_across = 62, ticks_down = 34;           // gaps between panels with tick labels of their own
@@ -82,14 +65,6 @@ struct Box {
   double x = 0, y = 0, w = 0, h = 0;  ///< from the panel's upper left corner [px]
 };
 
-/// Title and notes, broken into lines.
-struct Heading {
-  std::vector<std::string> title, notes;
-  double height() const {
-    return title_line * static_cast<double>(title.size()) + note_line * static_cast<double>(notes.size());
-  }
-};
-
 /// What the axes of a panel show.
 struct Frame {
   double x_min = 0, x_max = 1, y_min = 0, y_max = 1;
@@ -112,34 +87,6 @@ struct Layout {
   std::vector<std::vector<std::string>> labels;  ///< lines of each panel's label
   std::vector<Box> places;
 };
-
-std::size_t characters(std::string_view text) {  // UTF-8 code points
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
-}
-
-/// Breaks at spaces into lines of at most so many pixels, where words allow.
-std::vector<std::string> lines_of(const std::string& text, double pixels, double per_character) {
-  const auto limit = static_cast<std::size_t>(pixels / per_character);
-  std::vector<std::string> lines;
-  std::string line;
-  std::size_t used = 0;
-  for (std::size_t at = 0; at <= text.size();) {
-    const std::size_t end = std::min(text.find_first_of(" \n\r\t", at), text.size());
-    const std::string word = text.substr(at, end - at);
-    const std::size_t length = characters(word);
-    if (used > 0 && used + 1 + length > limit) {
-      lines.push_back(std::exchange(line, ""));
-      used = 0;
-    }
-    if (used > 0 && length > 0) line += ' ', ++used;
-    line += word;
-    used += length;
-    at = end + 1;
-  }
-  if (!line.empty()) lines.push_back(line);
-  return lines;
-}
 
 double length_of(const std::vector<std::string>& lines) {
   std::size_t longest = 0;
@@ -388,16 +335,6 @@ std::vector<Entry> entries_of(const Figure& figure) {
 
 // ---- the script
 
-/// A string in gnuplot's single quotes, in which nothing is expanded.
-std::string quoted(const std::string& text) {
-  std::string out = "'";
-  for (const char c : text) {
-    if (c == '\'') out += '\'';
-    out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-  }
-  return out + "'";
-}
-
 std::string ordinal(std::size_t n) {
   const bool teen = n % 100 > 10 && n % 100 < 14;
   const char* ending = teen ? "th" : n % 10 == 1 ? "st" : n % 10 == 2 ? "nd" : n % 10 == 3 ? "rd" : "th";
@@ -422,22 +359,10 @@ std::string at_pixels(double x0, double x1, double y0, double y1, double height)
       x0 / width, x1 / width, 1 - y0 / height, 1 - y1 / height);
 }
 
-std::string end_mark(const Figure& figure) { return "# end of " + figure.id + "\n"; }
-
 void write_head(Gnuplot& gp, const Figure& figure, const Heading& heading, const Layout& layout,
                 const std::vector<Entry>& entries) {
-  gp << "# " << figure.id << ": stand-alone, data included; 'gnuplot " << figure.id << ".gp' writes " << figure.id
-     << ".svg beside it.\n"
-     << "set encoding utf8\n"
-     << fmt::format("set terminal svg noenhanced rounded size {:.0f},{:.0f}", width, layout.height)
-     << " font 'sans-serif,12' background rgb '#ffffff'\n"
-     << "if (!exists('output_file')) {\n"
-     << "  slash = 0\n"
-     << "  if (exists('ARG0')) { do for [i=1:strlen(ARG0)] { if (ARG0[i:i] eq '/') { slash = i } } }\n"
-     << "  output_file = (slash > 0 ? ARG0[1:slash] : '') . '" << figure.id << ".svg'\n"
-     << "}\n"
-     << "set output output_file\n\n"
-     << "# Change the looks here.\n";
+  begin_page(gp, figure.id, width, layout.height);
+  gp << "# Change the looks here.\n";
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const Entry& entry = entries[i];
     std::string style = entry.appearance.line;
@@ -605,75 +530,26 @@ void write_panel(Gnuplot& gp, const Figure& figure, std::size_t index, const Lay
   gp << "unset label" << (figure.motion ? "; unset object" : "") << "\n\n";
 }
 
-std::string contents(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
-/// A name beside the final files that is removed on the way out.
-struct Scratch {
-  explicit Scratch(fs::path where) : path(std::move(where)) {}
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  ~Scratch() {
-    std::error_code ignored;
-    fs::remove(path, ignored);
-  }
-  fs::path path;
-};
-
-std::string script_of(const Figure& figure, const fs::path& directory) {
-  Heading heading{lines_of(figure.title, width - left - right, title_char), {}};
-  for (const std::string& note : figure.notes)
-    for (std::string& line : lines_of(note, width - left - right, note_char)) heading.notes.push_back(std::move(line));
+void write_script(Gnuplot& gp, const Figure& figure) {
+  const Heading heading = heading_of(figure.title, figure.notes, width - left - right);
   const std::vector<Entry> entries = entries_of(figure);
   const Layout layout = layout_of(figure, heading, entries.empty() ? 0 : entries.back().line + 1);
-
-  // gnuplot-iostream writes only to a file of its own and reports no failure: read back what arrived.
-  const Scratch file(directory / fmt::format(".{}.gp.{}.tmp", figure.id, ::getpid()));
-  bool good = false;
-  errno = 0;
-  try {
-    Gnuplot gp(">" + file.path.string());
-    gp << std::setprecision(16);  // 17 significant digits: enough to read the same double back
-    write_head(gp, figure, heading, layout, entries);
-    for (std::size_t i = 0; i < figure.panels.size(); ++i) write_panel(gp, figure, i, layout, entries);
-    gp << "unset multiplot\nset output\n" << end_mark(figure) << std::flush;
-    good = gp.good();
-  } catch (const std::ios_base::failure&) {
-    good = false;
-  }
-  const int error = errno;
-  std::string script = contents(file.path);
-  if (!good || !script.ends_with(end_mark(figure)))
-    throw std::runtime_error((directory / (figure.id + ".gp")).string() +
-                             ": cannot write: " + (error != 0 ? std::strerror(error) : "it came out incomplete"));
-  return script;
+  gp << std::setprecision(16);  // 17 significant digits: enough to read the same double back
+  write_head(gp, figure, heading, layout, entries);
+  for (std::size_t i = 0; i < figure.panels.size(); ++i) write_panel(gp, figure, i, layout, entries);
+  gp << "unset multiplot\nset output\n";
 }
 
 // ---- the data
 
-std::string csv_field(const std::string& text) {  // RFC 4180
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + "\"";
-}
-
 std::string csv_of(const Figure& figure) {
-  const auto meta = [](const std::string& key, std::string value) {
-    std::replace_if(
-        value.begin(), value.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
-    return "# " + key + ": " + value + "\n";
-  };
-  const auto number = [](double v) { return std::isnan(v) ? std::string("nan") : fmt::format("{}", v); };
-  std::string out = meta("figure", figure.id) + meta("title", figure.title);
-  for (const std::string& note : figure.notes) out += meta("note", note);
-  out += meta("x", figure.x_label) + meta("y", figure.y_label);
+  std::string out = csv_note("figure", figure.id) + csv_note("title", figure.title);
+  for (const std::string& note : figure.notes) out += csv_note("note", note);
+  out += csv_note("x", figure.x_label) + csv_note("y", figure.y_label);
   bool breaks = false;
   for (const Figure::Panel& panel : figure.panels) {
-    if (!panel.x_label.empty()) out += meta("x of panel '" + panel.label + "'", panel.x_label);
-    if (!panel.y_label.empty()) out += meta("y of panel '" + panel.label + "'", panel.y_label);
+    if (!panel.x_label.empty()) out += csv_note("x of panel '" + panel.label + "'", panel.x_label);
+    if (!panel.y_label.empty()) out += csv_note("y of panel '" + panel.label + "'", panel.y_label);
     for (const Figure::Series& series : panel.series) breaks = breaks || broken(series.curve);
   }
   if (breaks) out += "# nan: a line ends here; the next row begins a new one\n";
@@ -682,85 +558,16 @@ std::string csv_of(const Figure& figure) {
     for (const Figure::Series& series : panel.series) {
       const std::string start = csv_field(panel.label) + "," + csv_field(series.label) + ",";
       for (std::size_t i = 0; i < series.curve.x.size(); ++i)
-        out += start + number(series.curve.x[i]) + "," + number(series.curve.y[i]) + "\n";
+        out += start + csv_number(series.curve.x[i]) + "," + csv_number(series.curve.y[i]) + "\n";
     }
   return out;
-}
-
-// ---- running gnuplot
-
-struct Outcome {
-  bool found = true;
-  int status = 0;  ///< as from waitpid
-  std::string words;
-};
-
-/// Runs gnuplot in `directory`, without a shell; its output and complaints are collected.
-Outcome run_gnuplot(const fs::path& directory, const std::string& script, const std::string& output) {
-  Outcome outcome;
-  std::array<int, 2> ends{};
-  if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw std::runtime_error(std::string("pipe: ") + std::strerror(errno));
-
-  // Names hold no quotes: draw() has checked the id. -d: no start-up file of the user's may change the picture.
-  std::array<std::string, 5> words{"gnuplot", "-d", "-e", "output_file='" + output + "'", script};
-  std::array<char*, words.size() + 1> arguments{};
-  for (std::size_t i = 0; i < words.size(); ++i) arguments[i] = words[i].data();
-
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_adddup2(&actions, ends[1], 1);
-  posix_spawn_file_actions_adddup2(&actions, ends[1], 2);
-  posix_spawn_file_actions_addchdir_np(&actions, directory.c_str());
-  pid_t child = 0;
-  const int error = ::posix_spawnp(&child, "gnuplot", &actions, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  ::close(ends[1]);
-  if (error != 0) {
-    ::close(ends[0]);
-    outcome.found = false;
-    outcome.words = std::string("gnuplot: ") + std::strerror(error);
-    return outcome;
-  }
-  std::array<char, 4096> buffer{};
-  for (ssize_t got = 0; (got = ::read(ends[0], buffer.data(), buffer.size())) != 0;) {
-    if (got > 0) outcome.words.append(buffer.data(), static_cast<std::size_t>(got));
-    if (got < 0 && errno != EINTR) break;
-  }
-  ::close(ends[0]);
-  while (::waitpid(child, &outcome.status, 0) < 0 && errno == EINTR) {
-  }
-  return outcome;
-}
-
-/// What is wrong with the run or its picture; empty if nothing.
-std::string complaint(const Outcome& outcome, const fs::path& svg) {
-  std::string wrong;
-  if (WIFSIGNALED(outcome.status))
-    wrong = fmt::format("gnuplot was killed by signal {}", WTERMSIG(outcome.status));
-  else if (WEXITSTATUS(outcome.status) != 0)
-    wrong = fmt::format("gnuplot exited with status {}", WEXITSTATUS(outcome.status));
-  else {
-    const std::string picture = contents(svg);
-    const std::size_t last = picture.find_last_not_of(" \n\r\t");
-    const bool complete = last != std::string::npos && picture.substr(0, last + 1).ends_with("</svg>") &&
-                          picture.find("<svg") != std::string::npos;
-    if (picture.empty())
-      wrong = "gnuplot wrote no picture";
-    else if (!complete)
-      wrong = "gnuplot's picture is incomplete";
-  }
-  return wrong.empty() || outcome.words.empty() ? wrong : wrong + ": " + outcome.words;
 }
 
 void check(const Figure& figure) {
   const auto refuse = [&](const std::string& why) {
     throw std::invalid_argument("figure '" + figure.id + "': " + why);
   };
-  constexpr std::string_view allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.";
-  if (figure.id.empty() || figure.id.front() == '.' || figure.id.front() == '-' ||
-      figure.id.find_first_not_of(allowed) != std::string::npos)
-    refuse("an id names files: letters, digits, '_', '-' and '.', starting with a letter, digit or '_'");
+  check_id(figure.id);
   if (figure.panels.empty()) refuse("no panels");
   const auto range = [&](double low, double high, const std::string& axis) {
     if (!std::isfinite(low) || !std::isfinite(high) || !(low < high))
@@ -783,22 +590,8 @@ void check(const Figure& figure) {
 Drawn draw(const Figure& figure, const fs::path& directory, std::string& message) {
   message.clear();
   check(figure);
-  write_file(directory / (figure.id + ".csv"), csv_of(figure));  // also creates the directory
-  write_file(directory / (figure.id + ".gp"), script_of(figure, directory));
-  const fs::path svg = directory / (figure.id + ".svg");
-  std::error_code ignored;
-  fs::remove(svg, ignored);
-
-  const Scratch unfinished(directory / fmt::format(".{}.svg.{}.tmp", figure.id, ::getpid()));
-  const Outcome outcome = run_gnuplot(directory, figure.id + ".gp", unfinished.path.filename().string());
-  if (!outcome.found) {
-    message = outcome.words;
-    return Drawn::gnuplot_missing;
-  }
-  message = complaint(outcome, unfinished.path);
-  if (!message.empty()) return Drawn::gnuplot_failed;
-  fs::rename(unfinished.path, svg);
-  return Drawn::yes;
+  return draw_files(
+      figure.id, csv_of(figure), [&](Gnuplot& gp) { write_script(gp, figure); }, directory, message);
 }
 
 }  // namespace diptych::reports

@@ -7,7 +7,12 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "reports/choices_page.hpp"
+#include "reports/plate_results.hpp"
+#include "reports/vtu.hpp"
 
 namespace diptych::reports {
 
@@ -33,6 +38,21 @@ struct Curve {
   std::vector<double> x, y;
 };
 
+/// Damage of a plate on the nodes of its cells, row by row from the bottom.
+struct PlateFields {
+  int nx = 0, ny = 0;                 ///< cells
+  double width = 0, height = 0;       ///< [m]
+  std::vector<double> crack_density;  ///< C_d
+  std::vector<double> damage;         ///< D
+};
+
+/// One file of a plate's fields: "mesh" (triangles), "particles" or "cells".
+struct VtuPiece {
+  std::string name;
+  VtuMesh mesh;
+  std::vector<VtuArray> arrays;
+};
+
 struct Sample {
   double asked = 0;  ///< requested time in the case's unit of time, as written there
   double time = 0;   ///< time reached at the nearest step [the same]
@@ -40,6 +60,8 @@ struct Sample {
   std::vector<ProbeValue> probes;
   std::map<std::string, Curve> curves;        ///< field -> numerical field (filled only where a figure asks)
   std::map<std::string, Curve> exact_curves;  ///< field -> exact field on a fine line
+  std::optional<PlateFields> plate;           ///< of a plate with damage
+  std::vector<VtuPiece> files;                ///< all fields of a plate, filled only where they are asked for
 };
 
 /// One line of a run's energy and momentum ledger, in case units; the fields are those of the solvers' books.
@@ -53,7 +75,7 @@ struct Run {
   int cells = 0;
   double courant_asked = 0, courant = 0;      ///< C = cΔt/h as asked and as used
   std::string particles;                      ///< positions in the cell as in the case file, "" for FEM
-  std::string parameters;                     ///< swept parameters, "v0=0.1"; "" without
+  std::string parameters;                     ///< variant and swept parameters, "v0=0.1"; "" without
   std::string status;                         ///< "completed", "unstable", "refused", "left-grid", "cancelled", "error"
   std::string message;                        ///< why, where not completed
   double cell_size = 0;                       ///< h [case units]
@@ -72,6 +94,7 @@ struct Run {
   /// Paths of ends and of points between, NaN between two paths: x the place, y the time (filled where a figure asks).
   Curve paths, exact_paths;
   std::vector<double> path_origins;  ///< of each point of both: where it started
+  Curve platen;                      ///< of a plate: time [s], displacement of the platen along its normal [m]
   /// "mpm-musl N=200 C=0.5 ppc=1"; particles that are not evenly spaced add their positions, "ppc=1@0.3", and swept
   /// parameters theirs, "v0=0.1".
   std::string label() const;
@@ -92,7 +115,7 @@ struct Check {
 
 struct Gate {
   std::string case_id, id;  ///< full name is case_id/id
-  std::string kind;         ///< "exact", "constant", "order", "invariant", "limit"
+  std::string kind;         ///< "exact", "constant", "order", "invariant", "limit", "agreement"
   std::string quantity;     ///< "stress.L2", "energy.drift", ...
   std::string formula;      ///< what is compared, in words and symbols
   std::string reason;       ///< where the tolerance comes from
@@ -140,6 +163,9 @@ struct Case {
   std::vector<Run> runs;  ///< in the order of the axes
   std::vector<Gate> gates;
   std::vector<Figure> figures;
+  std::vector<PlateFigure> plate_figures;
+  std::vector<ProblemFigure> problem_figures;
+  std::vector<std::pair<std::string, ChoicesPage>> pages;  ///< each with the name of its file, less ".html"
 };
 
 /// What made the results.

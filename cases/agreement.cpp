@@ -1,0 +1,166 @@
+#include "cases/agreement.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <map>
+
+#include "cases/judging.hpp"
+#include "cases/plate_figures.hpp"
+#include "cases/uncertainty.hpp"
+
+namespace diptych::cases {
+namespace {
+
+using reports::Run;
+using reports::Verdict;
+
+/// Runs of one method from the coarsest mesh to the finest.
+using Series = std::vector<const Run*>;
+
+[[noreturn]] void invalid(const std::string& why) { throw Stop{Verdict::invalid, why}; }
+
+std::array<Series, 2> both_methods(const std::vector<const Run*>& runs) {
+  std::map<std::string, Series> by_method;
+  for (const Run* run : runs) {
+    check_judgeable(*run);
+    by_method[run->method].push_back(run);
+  }
+  if (by_method.size() != 2) invalid(fmt::format("{} methods; two are compared", by_method.size()));
+  std::array<Series, 2> both{by_method.begin()->second, std::next(by_method.begin())->second};
+  for (Series& series : both)
+    std::sort(series.begin(), series.end(), [](const Run* a, const Run* b) { return a->cells < b->cells; });
+  const auto meshes = [](const Series& series) {
+    std::vector<int> cells;
+    for (const Run* run : series) cells.push_back(run->cells);
+    return cells;
+  };
+  if (meshes(both[0]) != meshes(both[1])) invalid("the methods were not run on the same meshes");
+  const auto cells = meshes(both[0]);
+  if (cells.size() < 4) invalid(fmt::format("{} meshes, at least 4 are needed", cells.size()));
+  if (std::adjacent_find(cells.begin(), cells.end()) != cells.end()) invalid("two runs of a method on one mesh");
+  return both;
+}
+
+const reports::Sample& sample_at(const Run& run, double time) {
+  for (const auto& sample : run.samples)
+    if (sample.asked == time) return sample;
+  invalid(fmt::format("{} has no sample at {:g}", run.label(), time));
+}
+
+double probe_of(const Run& run, double time, const std::string& id) {
+  for (const auto& probe : sample_at(run, time).probes)
+    if (probe.id == id) return probe.value;
+  invalid(run.label() + " has no probe " + id);
+}
+
+NodalMap crack_density_of(const Run& run, double time) {
+  const auto& sample = sample_at(run, time);
+  if (!sample.plate) invalid(run.label() + " has no damage");
+  return map_of(*sample.plate, "crack-density");
+}
+
+std::vector<double> sizes_of(const Series& series) {
+  std::vector<double> sizes;
+  for (const Run* run : series) sizes.push_back(run->cell_size);
+  return sizes;
+}
+
+/// Per mesh: how far the methods are apart, and the band within which that is expected.
+struct Apart {
+  std::vector<double> difference, band;
+};
+
+Apart of_values(const std::array<Series, 2>& both, const std::function<double(const Run&)>& value) {
+  std::array<std::vector<double>, 2> values;
+  std::array<Uncertainty, 2> uncertainty;
+  for (std::size_t m = 0; m < 2; ++m) {
+    for (const Run* run : both[m]) {
+      values[m].push_back(value(*run));
+      if (!std::isfinite(values[m].back())) invalid(run->label() + ": the quantity is not a finite number");
+    }
+    uncertainty[m] = discretisation_uncertainty(sizes_of(both[m]), values[m]);
+  }
+  Apart apart;
+  for (std::size_t k = 0; k < both[0].size(); ++k) {
+    apart.difference.push_back(std::abs(values[0][k] - values[1][k]));
+    apart.band.push_back(std::hypot(uncertainty[0].of(k), uncertainty[1].of(k)));
+  }
+  return apart;
+}
+
+Apart of_contours(const std::array<Series, 2>& both, double time, double level) {
+  Apart apart;
+  apart.band.assign(both[0].size(), 0);
+  for (int angle = 0; angle <= 90; angle += 5) {
+    const auto radii = of_values(both, [&](const Run& run) { return radius_along(crack_density_of(run, time), level, angle); });
+    for (std::size_t k = 0; k < apart.band.size(); ++k) apart.band[k] = std::max(apart.band[k], radii.band[k]);
+  }
+  for (std::size_t k = 0; k < both[0].size(); ++k) {
+    const auto lines = [&](std::size_t m) { return contour(crack_density_of(*both[m][k], time), level); };
+    apart.difference.push_back(hausdorff(lines(0), lines(1)));
+  }
+  return apart;
+}
+
+Apart of_histories(const std::array<Series, 2>& both) {
+  const auto history = [](const Run& run) {
+    if (run.platen.x.empty()) invalid(run.label() + " has no platen");
+    return History{run.platen.x, run.platen.y};
+  };
+  Apart apart;
+  const std::size_t finest = both[0].size() - 1;
+  for (std::size_t k = 0; k <= finest; ++k) {
+    apart.difference.push_back(sprague_geers(history(*both[1][k]), history(*both[0][k])).combined);
+    std::array<double, 2> own{};
+    for (std::size_t m = 0; m < 2; ++m)
+      own[m] = sprague_geers(history(*both[m][std::min(k, finest - 1)]), history(*both[m][finest])).combined;
+    apart.band.push_back(std::hypot(own[0], own[1]));
+  }
+  return apart;
+}
+
+void judge(const std::array<Series, 2>& both, const Apart& apart, const GateSpec& gate, const std::string& when,
+           reports::Gate& result) {
+  std::vector<double> judged;
+  for (std::size_t k = 0; k < both[0].size(); ++k) {
+    if (std::find(gate.judged.begin(), gate.judged.end(), both[0][k]->cells) == gate.judged.end()) continue;
+    if (!(apart.band[k] > 0)) invalid(fmt::format("{} cells{}: no uncertainty to compare with", both[0][k]->cells, when));
+    hold(result, {fmt::format("{} cells{}: {:.3g} apart, expected within {:.3g}", both[0][k]->cells, when,
+                              apart.difference[k], apart.band[k]),
+                  apart.difference[k], apart.band[k], 0, *gate.max, apart.difference[k] / apart.band[k], false});
+    judged.push_back(apart.difference[k]);
+  }
+  if (judged.size() != gate.judged.size())
+    invalid(fmt::format("{} of {} meshes to judge were run", judged.size(), gate.judged.size()));
+  if (judged.size() < 2) return;
+  if (!(judged.front() > 1e-12 * apart.band.front())) invalid("the two methods give the same number: one of them twice?");
+  hold(result, {fmt::format("finest / coarsest difference{}", when), judged.back(), judged.front(), 0, 1,
+                judged.back() / judged.front(), false});
+}
+
+}  // namespace
+
+void judge_agreement(const Case& c, const GateSpec& gate, const std::vector<const Run*>& runs, reports::Gate& result) {
+  const auto both = both_methods(runs);
+  result.formula = fmt::format("|{} − {}| of {} / √(U² + U²) ≤ {:g}, and it shrinks", both[0][0]->method,
+                               both[1][0]->method, gate.quantity, *gate.max);
+  if (gate.quantity == "platen.history") {
+    judge(both, of_histories(both), gate, "", result);
+    return;
+  }
+  for (const double time : gate.times.empty() ? c.times : gate.times) {
+    const std::string when = fmt::format(", t = {:g} s", time);
+    if (gate.quantity == "contour.distance") {
+      judge(both, of_contours(both, time, gate.level), gate, when, result);
+    } else {
+      const std::string id = gate.quantity.substr(gate.quantity.find('.') + 1);
+      judge(both, of_values(both, [&](const Run& run) { return probe_of(run, time, id); }), gate, when, result);
+    }
+  }
+}
+
+}  // namespace diptych::cases

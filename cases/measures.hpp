@@ -1,0 +1,36 @@
+// What is measured in the same way for bars and plates.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "cases/case.hpp"
+#include "cases/leaf.hpp"
+#include "material/record.hpp"
+#include "reports/results.hpp"
+
+namespace diptych::cases {
+
+/// A run's number of steps is rounded up, never to nearest: at the limit one step fewer is unstable. The slack lets a
+/// Courant number that fits the time exactly but for round-off take the steps it asks for.
+constexpr double round_off = 1e-12;
+
+/// Whether some gate judges this quantity of this run.
+bool asks_for(const Case&, const Leaf&, const std::string& quantity);
+
+std::string status_of(Outcome);
+
+/// Energies as parts of the largest energy, momentum as a part of what the mass [kg] with that energy could have.
+void measure_ledger(double mass, const LedgerSums&, reports::Run&);
+
+/// Largest Courant number, to one part in a thousand, at which runs stay bounded. The bracket opens around the
+/// predicted limit until one end is stable and the other is not, and closes without looking at the prediction again.
+/// NaN where no such bracket is found.
+double bisect_limit(const std::function<bool(double courant)>& stable, double predicted);
+
+/// Why a completed run cannot be judged, or nothing: `active` features that are not the `declared`, sample times not
+/// reached, numbers that are not finite, norms out of order.
+std::string why_invalid(const Case&, const std::vector<std::string>& active, const std::vector<std::string>& declared,
+                        const reports::Run&);
+
+}  // namespace diptych::cases

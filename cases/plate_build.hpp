@@ -1,0 +1,47 @@
+// From a plate's case to what the solvers and the oracle take.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "analytic/plane_discrete.hpp"
+#include "analytic/plane_exact.hpp"
+#include "cases/case.hpp"
+#include "cases/leaf.hpp"
+#include "diffusion/concentration.hpp"
+#include "material/plate.hpp"
+
+namespace diptych::cases {
+
+/// What expressions of a plate know beside its parameters: Lx, Ly and pi; with a material E, nu, rho, c, c_d, c_s.
+std::map<std::string, double> plate_constants(const Case&);
+
+/// Cells of a run: `cells` across, and up so many that they have the aspect asked for.
+Cells cells_of(const PlateSpec&, int cells);
+diffusion::Grid grid_of(const PlateSpec&, int cells);
+
+/// The scene of one run. Holds expressions of its own: make one for each thread.
+Plate make_plate(const Case&);
+/// The exact solution, or null where the case names none.
+std::unique_ptr<analytic::PlaneSolution> make_plane_exact(const Case&);
+analytic::PlaneMedium medium_of(const PlateSpec&);
+analytic::PlaneDiscretisation plane_discretisation(const PlateSpec&, const Leaf&, double time_step);
+
+/// Diffusivity and source of a scene of diffusion alone.
+struct DiffusionScene {
+  std::function<double(double x, double y)> diffusivity;
+  std::function<double(double x, double y, double t)> rate;  ///< empty: none
+  std::function<double(double x, double y)> initial;         ///< empty: none
+};
+DiffusionScene make_diffusion(const Case&);
+
+/// The features that the scene switches on, each with the key that does it.
+std::map<std::string, std::string> plate_features(const Case&);
+
+/// "E = 50 GPa, ν = 0.3, ...": for people.
+std::string words_of(const PlateSpec&);
+
+}  // namespace diptych::cases

@@ -1,0 +1,20 @@
+// From a plate's results to what its figures draw.
+#pragma once
+
+#include <vector>
+
+#include "cases/case.hpp"
+#include "cases/contours.hpp"
+#include "reports/results.hpp"
+
+namespace diptych::cases {
+
+/// C_d, or D for "damage", on the nodes.
+NodalMap map_of(const reports::PlateFields&, const std::string& field);
+reports::PlateFigure contour_figure(const Case&, const FigureSpec&, const std::vector<reports::Run>&);
+reports::ProblemFigure problem_figure(const Case&, const FigureSpec&);
+reports::Figure history_figure(const Case&, const FigureSpec&, const std::vector<reports::Run>&);
+/// What each variant does to the contour: a page, and a picture for each of its rows.
+void add_choices(const Case&, const FigureSpec&, const std::vector<reports::Run>&, reports::Case&);
+
+}  // namespace diptych::cases

@@ -1,0 +1,474 @@
+// The schema of a plate's tables as the program reads it, top to bottom as in cases/README.md.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "cases/case_checks.hpp"
+#include "cases/case_tables.hpp"
+#include "cases/plate_build.hpp"
+#include "cases/toml_table.hpp"
+
+namespace diptych::cases {
+namespace {
+
+const Names sides{"left", "right", "bottom", "top"};
+
+Side side_of(const std::string& name) {
+  return static_cast<Side>(std::max<std::ptrdiff_t>(0, std::find(sides.begin(), sides.end(), name) - sides.begin()));
+}
+
+/// The value that a name of the list stands for, in the list's order.
+template <class Value>
+Value named(Table& t, const std::string& key, const std::vector<std::pair<std::string, Value>>& all, Value usual) {
+  Names names;
+  for (const auto& one : all) names.push_back(one.first);
+  const std::string name = t.get(key, one_of(names));
+  for (const auto& [other, value] : all)
+    if (other == name) return value;
+  return usual;
+}
+
+Rule<double> below(double bound, const Rule<double>& rule, const std::string& allowed) {
+  return {[=](const Place& place) -> std::optional<double> {
+            const auto value = rule.read(place);
+            if (value && *value >= bound) return place.refuse_value(allowed);
+            return value;
+          },
+          rule.missing};
+}
+
+double seconds(Table& t, const std::string& key, const Rule<double>& number, bool needed) {
+  const Rule<Measured> rule = with_unit({"s"}, number);
+  return (needed ? t.must(key, rule) : t.maybe(key, rule)).value_or(Measured{0, "s"}).value;
+}
+
+/// Expressions of the given variables, one a component; all or none.
+template <std::size_t n>
+std::array<std::string, n> read_components(Table& t, const std::string& key, const Names& variables, const Case& c) {
+  std::array<std::string, n> out;
+  const Place place = t.place(key);
+  if (!place.node) return out;
+  const auto* list = place.node->as<Node::List>();
+  if (!list || list->size() != n) {
+    place.refuse_value(fmt::format("a list of {} expressions in quotes, one a component", n));
+    return out;
+  }
+  bool good = true;
+  for (std::size_t k = 0; k < n; ++k) {
+    const Place entry = place.entry(k);
+    const auto one = formula().read(entry);
+    if (one) check_expression(entry, *one, variables, c);
+    good = good && one;
+    out[k] = one.value_or("");
+  }
+  return good ? out : std::array<std::string, n>{};
+}
+
+std::string read_formula(Table& t, const std::string& key, const Names& variables, const Case& c) {
+  const std::string text = t.get(key, formula());
+  check_expression(t.place(key), text, variables, c);
+  return text;
+}
+
+void read_shape(Table& t, Case& c) {
+  PlateSpec& plate = *c.plate;
+  plate.width = t.need("width", positive());
+  plate.height = t.need("height", positive());
+  plate.cell_aspect = t.get("cell_aspect", positive(), plate.cell_aspect);
+}
+
+void read_plate_material(Table& t, Case& c) {
+  PlateSpec& plate = *c.plate;
+  const std::string model = t.need("model", one_of({"elastic", "tensile-damage"}));
+  material::PlaneElastic elastic;
+  elastic.youngs_modulus = t.need("E", positive());
+  elastic.poissons_ratio = t.must("nu", below(0.5, any_number(), "-1 < nu < 0.5")).value_or(0);
+  if (elastic.poissons_ratio <= -1) t.place("nu").refuse(words(elastic.poissons_ratio), "-1 < nu < 0.5");
+  elastic.density = t.need("rho", positive());
+  elastic.plane = t.need("plane", one_of({"strain", "stress"})) == "stress" ? material::Plane::stress
+                                                                            : material::Plane::strain;
+  t.maybe_table("compression", [&](Table& p) {
+    plate.compression = material::Compression{p.need("strength", not_negative()), p.need("slope", not_negative())};
+    if (elastic.plane == material::Plane::stress)
+      p.say("found in plane stress, where the plastic flow across the plane is not known; allowed: plane = \"strain\"");
+  });
+  const auto of_damage = [&](const char* key) { return t.applies(key, "model", model, {"tensile-damage"}); };
+  material::TensileDamage damage;
+  damage.elastic = elastic;
+  if (of_damage("K_IC")) damage.fracture_toughness = t.need("K_IC", positive());
+  if (of_damage("k")) damage.flaw_density = t.need("k", positive());
+  if (of_damage("m")) damage.exponent = t.need("m", positive());
+  if (of_damage("beta")) damage.beta = t.get("beta", not_negative(), damage.beta);
+  if (of_damage("residual_stiffness"))
+    damage.residual_stiffness = t.get("residual_stiffness", positive(), damage.residual_stiffness);
+  if (of_damage("volumetric")) damage.trace = t.get("volumetric", one_of({"mean", "trace"})) == "trace";
+  if (model == "tensile-damage")
+    plate.material = damage;
+  else
+    plate.material = elastic;
+}
+
+void read_damage(Table& t, Case& c) {
+  const auto* law = std::get_if<material::TensileDamage>(&*c.plate->material);
+  diffusion::Evolution evolution;
+  if (law) {
+    evolution.crack_coefficient = law->crack_coefficient();
+    evolution.exponent = law->exponent;
+  }
+  evolution.critical_strain = t.need("critical_strain", positive());
+  evolution.damage_everywhere = t.get("shows", one_of({"where-critical", "everywhere"})) == "everywhere";
+  if (!t.get("capped", flag(), true)) evolution.cap = std::numeric_limits<double>::infinity();
+  const std::string rate = t.need("rate", one_of({"reference", "tracked"}));
+  evolution.rate = rate == "tracked" ? diffusion::Rate::tracked : diffusion::Rate::reference;
+  if (t.applies("reference_rate", "rate", rate, {"reference"}))
+    evolution.reference_rate = t.need("reference_rate", positive());
+  if (t.applies("rate_floor", "rate", rate, {"tracked"}))
+    evolution.rate_floor = t.get("rate_floor", positive(), evolution.rate_floor);
+  c.plate->evolution = evolution;
+}
+
+diffusion::Scheme read_scheme(Table& t, diffusion::Scheme usual) {
+  using diffusion::Scheme;
+  return named<Scheme>(t, "scheme",
+                       {{"forward-euler", Scheme::forward_euler},
+                        {"sub-cycled", Scheme::sub_cycled},
+                        {"rkl2", Scheme::rkl2},
+                        {"backward-euler", Scheme::backward_euler},
+                        {"crank-nicolson", Scheme::crank_nicolson}},
+                       usual);
+}
+
+diffusion::Reading read_reading(Table& t) {
+  using diffusion::Reading;
+  return named<Reading>(t, "reading", {{"isotropic", Reading::isotropic}, {"radial", Reading::radial}},
+                        Reading::isotropic);
+}
+
+/// Of microcracks, driven by the strain (eqs. 25 to 28).
+void read_diffusion(Table& t, Case& c) {
+  diffusion::Diffusion d;
+  d.characteristic_time = t.need("T_d", positive());
+  d.mobility = t.need("lambda1", not_negative());
+  d.crack_volume = t.need("lambda2", positive());
+  d.rupture_strain = t.need("rupture_strain", positive());
+  using diffusion::Source;
+  const std::string source = t.need("source", one_of({"zone", "node", "everywhere"}));
+  d.source = source == "node" ? Source::node : source == "everywhere" ? Source::everywhere : Source::zone;
+  if (t.applies("radius", "source", source, {"zone"})) d.radius = t.need("radius", positive());
+  d.per_crack_volume = t.get("per_crack_volume", flag(), d.per_crack_volume);
+  d.saturates = t.get("saturates", flag(), d.saturates);
+  d.clip_strain = t.get("clip_strain", flag(), d.clip_strain);
+  d.scheme = read_scheme(t, d.scheme);
+  d.reading = read_reading(t);
+  d.drift = t.get("drift", not_negative(), d.drift);
+  if (!c.plate->evolution) {
+    t.say("found beside a material without damage; allowed: with material.model = \"tensile-damage\" and [damage]");
+    return;
+  }
+  c.plate->evolution->diffusion = d;
+}
+
+/// Of anything, in a scene without a material.
+void read_pure_diffusion(Table& t, Case& c) {
+  PureDiffusion d;
+  d.diffusivity = t.must("diffusivity", constant_formula()).value_or("1");
+  check_expression(t.place("diffusivity"), d.diffusivity, {"x", "y"}, c);
+  d.rate = read_formula(t, "rate", {"x", "y", "t"}, c);
+  d.corner_rate = t.get("corner_rate", any_number(), 0);
+  d.scheme = read_scheme(t, d.scheme);
+  d.reading = read_reading(t);
+  c.plate->diffusion = d;
+}
+
+void read_plate_supports(Table& t, Case& c) {
+  using Support = Edge::Support;
+  for (std::size_t side = 0; side < 4; ++side) {
+    const std::string name = t.need(sides[side], one_of({"free", "roller", "fixed", "driven", "platen"}));
+    c.plate->supports[side] = name == "roller"   ? Support::roller
+                              : name == "fixed"  ? Support::fixed
+                              : name == "driven" ? Support::driven
+                              : name == "platen" ? Support::platen
+                                                 : Support::free;
+  }
+  const auto& supports = c.plate->supports;
+  const bool driven = std::find(supports.begin(), supports.end(), Support::driven) != supports.end();
+  c.plate->drive = read_components<2>(t, "velocity", {"x", "y", "t"}, c);
+  if (driven && !t.has("velocity"))
+    t.place("velocity").say("missing; allowed: the velocity of driven sides, two expressions of x, y and t");
+  if (!driven && t.has("velocity")) t.place("velocity").say("found without a driven side; allowed: with one");
+  if (std::count(supports.begin(), supports.end(), Support::platen) > 1)
+    t.say("found two platens; allowed: at most one");
+}
+
+void read_plate_load(Table& t, Case& c) {
+  SideLoad load;
+  const std::string at = t.need("at", one_of(sides));
+  load.side = side_of(at);
+  load.shear = t.get("direction", one_of({"normal", "shear"})) == "shear";
+  load.history = t.need("history", one_of({"step", "ramp", "impulse", "expression"}));
+  const Place traction = t.place("traction");
+  if (load.history == "expression") {
+    load.traction = t.need("traction", formula());
+    check_expression(traction, load.traction, {"t"}, c);
+  } else {
+    load.traction = t.must("traction", constant_formula()).value_or("0");
+    if (!check_constant(traction, load.traction, c)) load.traction = "0";
+  }
+  if (t.applies("start", "history", load.history, {"step", "ramp", "impulse"}))
+    load.start = seconds(t, "start", not_negative(), false);
+  if (t.applies("rise", "history", load.history, {"ramp"})) load.rise = seconds(t, "rise", positive(), true);
+  if (t.applies("duration", "history", load.history, {"impulse"}))
+    load.duration = seconds(t, "duration", positive(), true);
+  if (at.empty()) return;
+  using Support = Edge::Support;
+  const Support support = c.plate->supports[static_cast<std::size_t>(load.side)];
+  const bool held = support == Support::fixed || support == Support::driven ||
+                    (load.shear ? support == Support::platen : support == Support::roller);
+  if (held)
+    t.place("at").refuse(fmt::format("a {} load on the {} side, which is held so", load.shear ? "shear" : "normal", at),
+                         "loads on what is free to move");
+  for (const SideLoad& other : c.plate->loads)
+    if (other.side == load.side && other.shear == load.shear)
+      t.place("at").refuse("a second load of this kind on the " + at + " side", "one of each direction on each side");
+  c.plate->loads.push_back(load);
+}
+
+void read_plate_initial(Table& t, Case& c) {
+  if (c.plate->material) {
+    c.plate->initial_velocity = read_components<2>(t, "velocity", {"x", "y"}, c);
+    c.plate->initial_displacement = read_components<2>(t, "displacement", {"x", "y"}, c);
+  } else {
+    c.plate->initial_concentration = read_formula(t, "concentration", {"x", "y"}, c);
+  }
+}
+
+void read_plate_exact(Table& t, Case& c) {
+  PlateExact& exact = c.plate->exact;
+  const Names modes{"lame-mode", "roller-mode", "p-wave", "s-wave"};
+  Names solutions = c.plate->material ? modes : Names{"corner-source"};
+  solutions.push_back("expressions");
+  exact.solution = t.need("solution", one_of(solutions, "without an exact solution leave out the whole table [exact]"));
+  const auto of = [&](const char* key, const Names& owners) {
+    return t.applies(key, "solution", exact.solution, owners);
+  };
+  if (of("mode", modes)) exact.mode = t.need("mode", whole(1, 1000));
+  if (of("amplitude", modes)) exact.amplitude = t.need("amplitude", not_zero());
+  if (of("start", modes)) exact.from_rest = t.get("start", one_of({"displaced", "moving"})) != "moving";
+  const Names xyt{"x", "y", "t"};
+  if (of("displacement", {"expressions"})) exact.displacement = read_components<2>(t, "displacement", xyt, c);
+  if (of("velocity", {"expressions"})) exact.velocity = read_components<2>(t, "velocity", xyt, c);
+  if (of("stress", {"expressions"})) exact.stress = read_components<3>(t, "stress", xyt, c);
+  if (of("concentration", {"expressions"})) exact.concentration = read_formula(t, "concentration", xyt, c);
+  if (of("core", {"corner-source", "expressions"})) exact.core = t.get("core", positive(), 0);
+  const bool square = std::abs(c.plate->width - c.plate->height) <= 1e-12 * c.plate->width;
+  if (!square && (exact.solution == "lame-mode" || exact.solution == "roller-mode"))
+    t.place("solution").refuse(words(exact.solution) + " of a rectangle", "on a square: width = height");
+  if (exact.solution == "corner-source" && c.plate->diffusion && c.plate->diffusion->corner_rate == 0)
+    t.place("solution").say("found \"corner-source\" without one; allowed: with diffusion.corner_rate other than 0");
+}
+
+/// What a variant may change: all that makes the scene.
+void read_scene(Table& file, Case& c) {
+  c.plate = PlateSpec{};
+  file.table("plate", [&](Table& t) { read_shape(t, c); });
+  file.maybe_table("material", [&](Table& t) { read_plate_material(t, c); });
+  file.maybe_table("parameters", [&](Table& t) { read_parameters(t, c); });
+  if (!c.plate->material) {
+    for (const char* key : {"supports", "damage", "load", "body_force"})
+      if (file.has(key)) file.place(key).say("found in a scene without [material]; allowed: with one");
+    file.table("diffusion", [&](Table& t) { read_pure_diffusion(t, c); });
+  } else {
+    const bool damaging = std::holds_alternative<material::TensileDamage>(*c.plate->material);
+    if (damaging)
+      file.table("damage", [&](Table& t) { read_damage(t, c); });
+    else if (file.has("damage"))
+      file.place("damage").say("found beside an elastic material; allowed: with material.model = \"tensile-damage\"");
+    file.maybe_table("diffusion", [&](Table& t) { read_diffusion(t, c); });
+    file.table("supports", [&](Table& t) { read_plate_supports(t, c); });
+    file.each("load", [&](Table& t) { read_plate_load(t, c); });
+    file.maybe_table("body_force", [&](Table& t) {
+      c.plate->body_force = read_components<2>(t, "acceleration", {"x", "y", "t"}, c);
+    });
+  }
+  file.maybe_table("initial", [&](Table& t) { read_plate_initial(t, c); });
+  file.maybe_table("exact", [&](Table& t) { read_plate_exact(t, c); });
+}
+
+/// The value at keys[from], keys[from + 1], ... of a tree of tables, made where it is missing.
+void put(Node& node, const Names& keys, std::size_t from, const Node& value, Position at) {
+  if (from == keys.size()) {
+    node = value;
+    return;
+  }
+  if (!node.as<Node::Entries>()) node.value = Node::Entries{};
+  auto& entries = std::get<Node::Entries>(node.value);
+  auto one = std::find_if(entries.begin(), entries.end(), [&](const Node::Entry& e) { return e.key == keys[from]; });
+  if (one == entries.end()) {
+    one = std::lower_bound(entries.begin(), entries.end(), keys[from],
+                           [](const Node::Entry& e, const std::string& key) { return e.key < key; });
+    one = entries.insert(one, {keys[from], at, Node{at, Node::DateOrTime{}}});
+  }
+  put(one->value, keys, from + 1, value, at);
+}
+
+void take(Node& node, const Names& keys, std::size_t from) {
+  auto* entries = std::get_if<Node::Entries>(&node.value);
+  if (!entries) return;
+  const auto one =
+      std::find_if(entries->begin(), entries->end(), [&](const Node::Entry& e) { return e.key == keys[from]; });
+  if (one == entries->end()) return;
+  if (from + 1 == keys.size())
+    entries->erase(one);
+  else
+    take(one->value, keys, from + 1);
+}
+
+Names split_key(const std::string& key) {
+  Names parts{""};
+  for (const char ch : key) {
+    if (ch == '.')
+      parts.emplace_back();
+    else
+      parts.back() += ch;
+  }
+  return parts;
+}
+
+/// Another scene: the file's with some keys set or left out.
+void read_variant(Table& t, Table& file, Case& c) {
+  PlateVariant variant;
+  variant.id = t.need("id", id());
+  variant.says = t.need("says", text());
+  Node scene = *file.itself().node;
+  const Names allowed{"plate", "material", "damage", "diffusion", "supports", "load", "body_force", "initial"};
+  const auto known = [&](const Place& place, const std::string& key) {
+    if (contains(allowed, split_key(key).front())) return true;
+    place.refuse(words(key), "keys of the scene's tables, like \"damage.rate\": " + joined(allowed));
+    return false;
+  };
+  for (const std::string& key : t.get("without", set_of(text())))
+    if (known(t.place("without"), key)) take(scene, split_key(key), 0);
+  t.maybe_table("set", [&](Table& s) {
+    for (const auto& entry : s.entries()) {
+      if (known(s.place(entry.key), entry.key)) put(scene, split_key(entry.key), 0, entry.value, entry.at);
+    }
+  });
+  if (!t.has("set") && !t.has("without")) t.say("found no change; allowed: set or without");
+  Case other = c;
+  other.variants.clear();
+  std::vector<Mistake> mistakes;
+  Table whole({&mistakes, &scene, t.itself().at, "file"}, "variant " + words(variant.id) + ": ");
+  read_scene(whole, other);
+  for (const Mistake& one : mistakes) t.itself().mistakes->push_back(one);
+  variant.plate = *other.plate;
+  const auto same = [&](const PlateVariant& v) { return v.id == variant.id; };
+  if (std::any_of(c.variants.begin(), c.variants.end(), same))
+    t.place("id").refuse(words(variant.id) + " again", "an id of its own");
+  c.variants.push_back(variant);
+}
+
+PlateProbe read_plate_probe(Table& t, const Case& c) {
+  PlateProbe probe;
+  probe.id = t.need("id", id());
+  Names reads{"concentration", "total"};
+  if (c.plate->material) {
+    reads = {"displacement-x", "displacement-y", "velocity-x", "velocity-y", "stress-xx", "stress-yy", "stress-xy"};
+    if (c.plate->evolution)
+      reads.insert(reads.end(), {"radius", "area", "largest", "acoustic-ratio", "acoustic-angle"});
+    if (c.plate->evolution && c.plate->evolution->diffusion)
+      reads.insert(reads.end(), {"concentration", "total"});
+  }
+  probe.reads = t.need("reads", one_of(reads));
+  const auto of = [&](const char* key, const Names& owners) { return t.applies(key, "reads", probe.reads, owners); };
+  if (of("angle", {"radius"})) {
+    probe.angle = t.need("angle", not_negative());
+    if (probe.angle > 90) t.place("angle").refuse(words(probe.angle), "0 to 90 degrees");
+  }
+  if (of("level", {"radius", "area"})) probe.level = t.need("level", positive());
+  Names at_a_place{"concentration"};
+  for (const std::string& name : reads)
+    if (name.find('-') != name.npos && !name.starts_with("acoustic")) at_a_place.push_back(name);
+  if (of("at", at_a_place)) {
+    const auto at = t.must("at", list_of(not_negative())).value_or(std::vector<double>{0, 0});
+    if (at.size() != 2 || at[0] > c.plate->width || at[1] > c.plate->height) {
+      t.place("at").refuse(words(at), "[x, y] in the plate [m]");
+    } else {
+      probe.x = at[0];
+      probe.y = at[1];
+    }
+  }
+  return probe;
+}
+
+void read_plate_sample(Table& t, Case& c) {
+  t.table("times", [&](Table& s) {
+    c.time_unit = s.need("unit", one_of({"s"}));
+    c.times = s.need("at", list_of(positive()));
+    if (ascending(c.times)) return;
+    s.place("at").refuse(words(c.times), "times in ascending order, each once");
+    c.times.clear();
+  });
+  c.plate_probes = read_each<PlateProbe>(t, "probes", c, read_plate_probe);
+}
+
+void check_plate_features(const Place& place, const Case& c) {
+  if (c.features.empty()) return;
+  const auto used = plate_features(c);
+  for (const auto& [feature, key] : used)
+    if (!contains(c.features, feature))
+      place.say("missing " + words(feature) + ", which " + key + " switches on; allowed: exactly the features in use");
+  for (const std::string& feature : c.features)
+    if (!used.contains(feature))
+      place.say("found " + words(feature) +
+                ", which nothing in the scene switches on; allowed: exactly the features in use");
+}
+
+/// Meshes whose cells have the aspect asked for but for rounding to whole numbers, and runs that end.
+void check_meshes(const Place& place, const Case& c) {
+  if (!(c.plate->width > 0) || !(c.plate->height > 0)) return;
+  constexpr double most = 1e8;
+  for (const int cells : all_axes(c).cells) {
+    const Cells n = cells_of(*c.plate, cells);
+    const double aspect = c.plate->height / n.y / (c.plate->width / n.x);
+    if (std::abs(aspect / c.plate->cell_aspect - 1) > 0.5)
+      place.say(fmt::format("found {} cells across, which makes {} × {} cells of aspect {:g}; allowed: numbers that "
+                            "come near plate.cell_aspect = {:g}",
+                            cells, n.x, n.y, aspect, c.plate->cell_aspect));
+    if (static_cast<double>(n.x) * n.y > most)
+      place.say(fmt::format("found {} × {} cells; allowed: at most {:g}", n.x, n.y, most));
+  }
+}
+
+}  // namespace
+
+void read_plate_case(Table& file, Case& c) {
+  std::size_t before = file.mistakes();
+  read_scene(file, c);
+  const bool scene_is_read = file.mistakes() == before;
+  file.table("model", [&](Table& t) {
+    c.convected = t.get("displacements", one_of({"infinitesimal", "finite"})) == "finite";
+    if (c.plate->material && t.has("pic")) {
+      c.plate->pic = t.get("pic", not_negative());
+      if (c.plate->pic > 1) t.place("pic").refuse(words(c.plate->pic), "0 (FLIP) to 1 (PIC)");
+    }
+    c.features = t.need("features",
+                        set_of(one_of({"elastic", "damage", "diffusion", "compression-plasticity", "platen",
+                                       "body-force", "convection", "pic"})));
+    std::sort(c.features.begin(), c.features.end());
+    if (scene_is_read) check_plate_features(t.place("features"), c);
+    if (c.convected && c.plate->evolution)
+      t.place("displacements").say("found \"finite\" beside damage; allowed: \"infinitesimal\", as in the paper");
+  });
+  if (scene_is_read) file.each("variant", [&](Table& t) { read_variant(t, file, c); });
+  const double pic = c.plate->pic;
+  for (PlateVariant& variant : c.variants) variant.plate.pic = pic;
+  if (!scene_is_read) file.place("variant");
+  const std::vector<AxesBlock> blocks = read_all_axes(file, c, methods_of(c), {{0.25, 0.75}});
+  file.table("sample", [&](Table& t) { read_plate_sample(t, c); });
+  if (scene_is_read) check_meshes(file.place("axes"), c);
+  read_judgement(file, c);
+}
+
+}  // namespace diptych::cases

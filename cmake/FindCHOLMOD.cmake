@@ -1,0 +1,23 @@
+# CHOLMOD of SuiteSparse, which on Debian has neither a CMake nor a pkg-config file: target SuiteSparse::CHOLMOD.
+find_path(CHOLMOD_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse)
+find_library(CHOLMOD_LIBRARY cholmod)
+find_library(SUITESPARSECONFIG_LIBRARY suitesparseconfig)
+
+if(CHOLMOD_INCLUDE_DIR)
+  file(STRINGS ${CHOLMOD_INCLUDE_DIR}/cholmod_core.h lines REGEX "#define CHOLMOD_(MAIN|SUB|SUBSUB)_VERSION +[0-9]+")
+  string(REGEX REPLACE "[^;0-9]+" "" CHOLMOD_VERSION "${lines}")
+  string(REPLACE ";" "." CHOLMOD_VERSION "${CHOLMOD_VERSION}")
+endif()
+
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(CHOLMOD
+  REQUIRED_VARS CHOLMOD_LIBRARY SUITESPARSECONFIG_LIBRARY CHOLMOD_INCLUDE_DIR VERSION_VAR CHOLMOD_VERSION)
+mark_as_advanced(CHOLMOD_INCLUDE_DIR CHOLMOD_LIBRARY SUITESPARSECONFIG_LIBRARY)
+
+if(CHOLMOD_FOUND AND NOT TARGET SuiteSparse::CHOLMOD)
+  add_library(SuiteSparse::CHOLMOD UNKNOWN IMPORTED)
+  set_target_properties(SuiteSparse::CHOLMOD PROPERTIES
+    IMPORTED_LOCATION ${CHOLMOD_LIBRARY}
+    INTERFACE_INCLUDE_DIRECTORIES ${CHOLMOD_INCLUDE_DIR}
+    INTERFACE_LINK_LIBRARIES ${SUITESPARSECONFIG_LIBRARY})
+endif()

@@ -1,0 +1,104 @@
+// What both solvers are given in two dimensions: a rectangle, how its sides are held and loaded, and how it starts.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "material/compression.hpp"
+#include "material/plane.hpp"
+#include "material/record.hpp"
+#include "material/tensile_damage.hpp"
+
+namespace diptych {
+
+using Vector = std::array<double, 2>;  ///< x and y
+
+enum class Side { left, right, bottom, top };
+
+/// One side of a plate. An empty function is a feature that is off.
+struct Edge {
+  enum class Support {
+    free,
+    roller,   ///< no motion across the side, free along it
+    fixed,    ///< no motion
+    driven,   ///< moves with the given velocity
+    platen    ///< a rigid frictionless one: equal motion across the side, free along it; top or bottom, left or right
+  };
+  Support support = Support::free;
+  /// Mean traction over [from, to], to > from [Pa], along the outward normal (tension positive) and along the side
+  /// (towards larger coordinates). On a platen the first one, times the side's length, is the total load.
+  std::function<double(double from, double to)> normal_traction, shear_traction;
+  std::function<Vector(double x, double y, double t)> velocity;  ///< of a driven side [m/s]
+};
+
+using PlateMaterial = std::variant<material::PlaneElastic, material::TensileDamage>;
+
+/// 0 ≤ x ≤ width, 0 ≤ y ≤ height, of unit thickness, small strain.
+struct Plate {
+  double width = 0, height = 0;  ///< L_x, L_y [m]
+  PlateMaterial material;
+  std::optional<material::Compression> compression;  ///< plane strain only
+  std::array<Edge, 4> edges;                         ///< by Side
+  std::function<Vector(double x, double y, double t)> body_force;                  ///< specific, b of eq. 2 [m/s²]
+  std::function<Vector(double x, double y)> initial_velocity;                      ///< [m/s]
+  std::function<Vector(double x, double y)> initial_displacement;                  ///< [m], strains follow from it
+  bool convected = false;  ///< particles move and cross cells; false: infinitesimal displacements
+  double pic = 0;          ///< part of PIC in MPM's velocity update, 0 (FLIP) to 1
+
+  Edge& edge(Side side) { return edges[static_cast<std::size_t>(side)]; }
+  const Edge& edge(Side side) const { return edges[static_cast<std::size_t>(side)]; }
+};
+
+/// Cells of the mesh and of MPM's grid, across and up; cells are numbered row by row from the bottom, each row from the left.
+struct Cells {
+  int x = 1, y = 1;
+};
+
+inline const material::PlaneElastic& elastic(const Plate& plate) {
+  if (const auto* damage = std::get_if<material::TensileDamage>(&plate.material)) return damage->elastic;
+  return std::get<material::PlaneElastic>(plate.material);
+}
+
+/// A field at points of a plate, at its own time level.
+struct PointField {
+  double time = 0;                             ///< [s]
+  std::vector<double> x, y;                    ///< where the points started [m]
+  std::vector<double> weight;                  ///< area that each stands for [m²]; they add up to the plate
+  std::vector<std::vector<double>> component;  ///< each has one value a point
+};
+
+struct PlateSnapshot {
+  long step = 0;
+  double time = 0;                          ///< of strain, crack density and concentration [s]
+  PointField displacement, velocity;        ///< x, y
+  PointField stress;                        ///< xx, yy, xy
+  std::vector<double> volumetric_strain;    ///< of each cell, the mean over its triangles or particles
+  std::vector<double> crack_density;        ///< C_d of each cell; empty without damage
+  std::vector<material::Tensor> strain;     ///< with damage: of each cell, the mean over its triangles or particles
+  std::vector<double> concentration;        ///< C of each cell node, row by row; empty without diffusion [1/m³]
+};
+
+/// True if every value is finite.
+inline bool finite(const PlateSnapshot& s) {
+  const auto all_finite = [](const std::vector<double>& values) {
+    return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+  };
+  for (const PointField* f : {&s.displacement, &s.velocity, &s.stress}) {
+    if (!std::all_of(f->component.begin(), f->component.end(), all_finite)) return false;
+  }
+  return all_finite(s.volumetric_strain) && all_finite(s.crack_density) && all_finite(s.concentration);
+}
+
+struct PlateRecord : BasicRecord<PlateSnapshot> {
+  double fed = 0;              ///< with diffusion: ∫C dA at the start and what the source has given since
+  std::vector<double> platen;  ///< displacement of the platen along its outward normal after each step [m]; or empty
+};
+
+}  // namespace diptych

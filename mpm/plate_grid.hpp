@@ -1,0 +1,313 @@
+// The background grid of the plate: 4-node cells, what supports do to its nodes, and how cells' shares add up on them.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include "material/plate.hpp"
+
+namespace diptych::mpm {
+
+/// `count` zeros, with a little room to spare where arrays of this length that are allocated one after the other would
+/// begin a whole multiple of 64 KiB apart: all of them would fall on the same few lines of the caches.
+inline void allocate(std::vector<double>& values, std::size_t count) {
+  constexpr std::size_t cycle = 8192, near = 1024;  // in numbers
+  const std::size_t clash = (count + near) % cycle < 3 * near && count > cycle ? 4 * near : 0;
+  values.reserve(count + clash);
+  values.assign(count, 0);
+}
+
+/// A vector on every node or particle, one array a component.
+struct VectorField {
+  std::vector<double> x, y;
+  void resize(std::size_t count) {
+    allocate(x, count);
+    allocate(y, count);
+  }
+  std::size_t bytes() const { return (x.capacity() + y.capacity()) * sizeof(double); }
+};
+
+/// A length for rows of which several are worked on together, a few numbers longer where rows of the length itself
+/// would lie whole pages apart, which caches and store buffers take for one and the same address.
+inline std::size_t off_pages(std::size_t length, std::size_t rows) {
+  constexpr std::size_t page = 512, near = 16;  // in numbers
+  const auto clashes = [&](std::size_t padded) {
+    for (std::size_t k = 1; k < std::min<std::size_t>(rows, 8); ++k) {
+      const std::size_t apart = k * padded;
+      if (apart + near > page && (apart + near) % page < 2 * near) return true;
+    }
+    return false;
+  };
+  for (std::size_t padded = length; padded < length + 64; ++padded) {
+    if (!clashes(padded)) return padded;
+  }
+  return length;
+}
+
+/// Nodes row by row from the bottom, each row from the left.
+struct Grid {
+  std::size_t nx = 1, ny = 1;  ///< cells across and up
+  double hx = 1, hy = 1;       ///< of a cell [m]
+  double left = 0, bottom = 0; ///< where the first node stands [m]
+  std::size_t stride = 2;      ///< from a node to the one above it, ≥ nx + 1
+  bool alike = true;           ///< all rows between the bottom and the top one have the same masses, stored once
+  std::vector<double> mass;    ///< [kg]
+  VectorField velocity;        ///< mapped from the particles [m/s]
+  VectorField acceleration;    ///< [m/s²]
+  VectorField kicked;          ///< the grid's own new velocity, kept for USL only [m/s]
+
+  std::size_t row_length() const { return nx + 1; }
+  std::size_t next_row() const { return stride; }
+  std::size_t row(std::size_t j) const { return j * stride; }
+  std::size_t nodes() const { return (nx + 1) * (ny + 1); }
+  std::size_t storage() const { return stride * (ny + 1); }
+  std::size_t mass_rows() const { return alike ? 3 : ny + 1; }
+  std::size_t mass_row(std::size_t j) const { return row(!alike ? j : j == 0 ? 0 : j == ny ? 2 : 1); }
+  double mass_of(std::size_t i, std::size_t j) const { return mass[mass_row(j) + i]; }
+  double x(std::size_t i) const { return left + static_cast<double>(i) * hx; }
+  double y(std::size_t j) const { return bottom + static_cast<double>(j) * hy; }
+  std::size_t bytes() const {
+    return mass.capacity() * sizeof(double) + velocity.bytes() + acceleration.bytes() + kicked.bytes();
+  }
+};
+
+/// What the cells of a row give to their four corners, one number a cell: bottom left, bottom right, top left, top
+/// right. Left shares stand at the cell's number, right ones at the next, where the node's number is.
+struct CornerShares {
+  std::vector<double> bottom_left, bottom_right, top_left, top_right;
+  void resize(std::size_t row_length) {
+    for (auto* shares : {&bottom_left, &bottom_right, &top_left, &top_right}) {
+      shares->reserve(off_pages(row_length, 8));
+      shares->assign(row_length, 0);
+    }
+  }
+};
+
+/// A run of cell rows that one thread works on, with room for what rolls through.
+struct Band {
+  std::size_t first = 0, last = 0;  ///< rows [first, last)
+  std::array<CornerShares, 2> shares;
+  std::array<std::vector<double>, 2> from_below, seam, sum;  ///< of one node row
+  std::array<std::vector<double>, 2> low, high;              ///< kicked velocities of the row's bottom and top nodes
+};
+
+/// The rows' bands and the threads that take them. Nothing of a sum depends on their number: a node's value is (what the
+/// row below gives) + (what the row above gives), and each of the two is (left cell) + (right cell).
+class Bands {
+ public:
+  Bands(std::size_t rows, std::size_t row_length, int threads) {
+    const std::size_t count = std::min(rows, static_cast<std::size_t>(std::max(1, threads)));
+    bands_.resize(count);
+    for (std::size_t b = 0; b < count; ++b) {
+      Band& band = bands_[b];
+      band.first = rows * b / count;
+      band.last = rows * (b + 1) / count;
+      for (std::size_t c = 0; c < 2; ++c) {
+        band.shares[c].resize(row_length);
+        for (auto* row : {&band.from_below, &band.seam, &band.sum, &band.low, &band.high}) {
+          (*row)[c].reserve(off_pages(row_length, 8));
+          (*row)[c].assign(row_length, 0);
+        }
+      }
+    }
+    if (count > 1) arena_ = std::make_unique<tbb::task_arena>(static_cast<int>(count));
+  }
+
+  template <class F>
+  void for_each(F&& f) {
+    if (!arena_) {
+      f(bands_[0]);
+      return;
+    }
+    arena_->execute(
+        [&] { tbb::parallel_for(std::size_t{0}, bands_.size(), [&](std::size_t b) { f(bands_[b]); }); });
+  }
+
+  /// Calls cells(j, band) for each row of cells, which leaves what they give to their nodes in band.shares, and
+  /// nodes(j, x, y) for each row of nodes with the sums, as soon as the row of cells above has been visited.
+  template <class Cells, class Nodes>
+  void gather(Cells&& cells, Nodes&& nodes) {
+    for_each([&](Band& band) {
+      for (auto& row : band.from_below) std::fill(row.begin(), row.end(), 0.0);
+      for (std::size_t j = band.first; j < band.last; ++j) {
+        cells(j, band);
+        const bool at_seam = j == band.first && &band != &bands_.front();
+        for (std::size_t c = 0; c < 2; ++c) {
+          const CornerShares& s = band.shares[c];
+          double *below = band.from_below[c].data(), *sum = at_seam ? band.seam[c].data() : band.sum[c].data();
+          const double *bl = s.bottom_left.data(), *br = s.bottom_right.data();
+          const double *tl = s.top_left.data(), *tr = s.top_right.data();
+          const std::size_t length = band.sum[c].size();
+#pragma GCC ivdep
+          for (std::size_t i = 0; i < length; ++i) {
+            sum[i] = below[i] + (br[i] + bl[i]);
+            below[i] = tr[i] + tl[i];
+          }
+        }
+        if (!at_seam) nodes(j, band.sum[0].data(), band.sum[1].data());
+      }
+      if (&band == &bands_.back()) nodes(band.last, band.from_below[0].data(), band.from_below[1].data());
+    });
+    for (std::size_t b = 1; b < bands_.size(); ++b) {
+      Band &below = bands_[b - 1], &above = bands_[b];
+      for (std::size_t c = 0; c < 2; ++c) {
+        for (std::size_t i = 0; i < above.seam[c].size(); ++i) above.seam[c][i] += below.from_below[c][i];
+      }
+      nodes(above.first, above.seam[0].data(), above.seam[1].data());
+    }
+  }
+
+  std::size_t bytes() const {
+    return bands_.size() * (18 * bands_[0].sum[0].capacity() * sizeof(double) + sizeof(Band));
+  }
+
+ private:
+  std::vector<Band> bands_;
+  std::unique_ptr<tbb::task_arena> arena_;
+};
+
+/// Holds the grid's sides in velocity and acceleration. Supports reach along the whole side of the grid.
+class Supports {
+ public:
+  /// A node that moves as it is told.
+  struct Driven {
+    std::size_t i, j;
+    Side side;
+    Vector before, after;         ///< given velocities at the last two levels [m/s]
+    Vector unheld{}, reaction{};  ///< the velocity that the particles would give it, and its support's force [N]
+  };
+
+  Supports(const Plate& plate, Grid& grid) : plate_(plate), grid_(grid) {
+    for (const Side side : sides) {
+      if (plate.edge(side).support == Edge::Support::platen) platen_ = side;
+      if (plate.edge(side).support == Edge::Support::driven) {
+        for_nodes(side, [&](std::size_t i, std::size_t j) {
+          const Vector v = plate.initial_velocity ? plate.initial_velocity(grid.x(i), grid.y(j)) : Vector{0, 0};
+          driven_.push_back({i, j, side, v, v});
+        });
+      }
+    }
+  }
+
+  bool free() const {
+    for (const Side side : sides) {
+      const auto support = plate_.edge(side).support;
+      if (support != Edge::Support::free && support != Edge::Support::platen) return false;
+    }
+    return true;
+  }
+  bool has_platen() const { return platen_.has_value(); }
+  const std::vector<Driven>& driven() const { return driven_; }
+  std::size_t bytes() const { return driven_.capacity() * sizeof(Driven); }
+
+  /// Holds the velocities just mapped. Returns Σ m (held − mapped) along (1, 1) [kg m/s].
+  double hold_velocity() {
+    for (Driven& d : driven_) d.unheld = {grid_.velocity.x[at(d.i, d.j)], grid_.velocity.y[at(d.i, d.j)]};
+    level_platen(grid_.velocity);
+    return hold(grid_.velocity, [](const Driven& d) { return d.after; });
+  }
+
+  /// Holds the accelerations of a kick [from, to]. Returns the supports' forces along (1, 1) [N].
+  double hold_acceleration(double to, double kick) {
+    for (Driven& d : driven_) {
+      d.before = d.after;
+      d.after = plate_.edge(d.side).velocity(grid_.x(d.i), grid_.y(d.j), to);
+      d.reaction = {grid_.acceleration.x[at(d.i, d.j)], grid_.acceleration.y[at(d.i, d.j)]};
+    }
+    level_platen(grid_.acceleration);
+    const double total = hold(grid_.acceleration, [&](const Driven& d) {
+      return Vector{(d.after[0] - d.before[0]) / kick, (d.after[1] - d.before[1]) / kick};
+    });
+    for (Driven& d : driven_) {
+      const double m = grid_.mass_of(d.i, d.j);
+      d.reaction = {m * (grid_.acceleration.x[at(d.i, d.j)] - d.reaction[0]),
+                    m * (grid_.acceleration.y[at(d.i, d.j)] - d.reaction[1])};
+    }
+    return total;
+  }
+
+  /// Of the platen along its outward normal, of a field that stands held.
+  double of_platen(const VectorField& field) const {
+    const bool across = *platen_ == Side::left || *platen_ == Side::right;
+    const bool positive = *platen_ == Side::right || *platen_ == Side::top;
+    const std::size_t node = at(*platen_ == Side::right ? grid_.nx : 0, *platen_ == Side::top ? grid_.ny : 0);
+    const double value = (across ? field.x : field.y)[node];
+    return positive ? value : -value;
+  }
+
+  /// Calls f(i, j) for the nodes of a side, towards larger coordinates.
+  template <class F>
+  void for_nodes(Side side, F&& f) const {
+    if (side == Side::left || side == Side::right) {
+      for (std::size_t j = 0; j <= grid_.ny; ++j) f(side == Side::left ? 0 : grid_.nx, j);
+    } else {
+      for (std::size_t i = 0; i <= grid_.nx; ++i) f(i, side == Side::bottom ? 0 : grid_.ny);
+    }
+  }
+
+ private:
+  static constexpr std::array sides{Side::left, Side::right, Side::bottom, Side::top};
+  std::size_t at(std::size_t i, std::size_t j) const { return grid_.row(j) + i; }
+
+  /// A platen's nodes share their momentum or force across the side: the M-orthogonal mean, which does no work. Summed
+  /// from the outside in, so that a mirrored plate adds the same numbers.
+  void level_platen(VectorField& field) {
+    if (!platen_) return;
+    const bool across = *platen_ == Side::left || *platen_ == Side::right;
+    std::vector<double>& values = across ? field.x : field.y;
+    const std::size_t first = at(*platen_ == Side::right ? grid_.nx : 0, *platen_ == Side::top ? grid_.ny : 0);
+    const std::size_t stride = across ? grid_.next_row() : 1, count = (across ? grid_.ny : grid_.nx) + 1;
+    const auto mass = [&](std::size_t k) {
+      return across ? grid_.mass_of(*platen_ == Side::right ? grid_.nx : 0, k)
+                    : grid_.mass_of(k, *platen_ == Side::top ? grid_.ny : 0);
+    };
+    const auto product = [&](std::size_t k) { return mass(k) * values[first + k * stride]; };
+    double sum = 0, masses = 0;
+    for (std::size_t low = 0, high = count - 1; low <= high; ++low, --high) {
+      sum += low == high ? product(low) : product(low) + product(high);
+      masses += low == high ? mass(low) : mass(low) + mass(high);
+      if (high == 0) break;
+    }
+    for (std::size_t k = 0; k < count; ++k) values[first + k * stride] = sum / masses;
+  }
+
+  template <class Given>
+  double hold(VectorField& field, Given&& given) {
+    double total = 0;
+    const auto set = [&](std::vector<double>& values, std::size_t i, std::size_t j, double value) {
+      double& old = values[at(i, j)];
+      total += grid_.mass_of(i, j) * (value - old);
+      old = value;
+    };
+    for (const Driven& d : driven_) {
+      const Vector v = given(d);
+      set(field.x, d.i, d.j, v[0]);
+      set(field.y, d.i, d.j, v[1]);
+    }
+    for (const Side side : sides) {  // a wall at rest has the last word at a corner
+      const auto support = plate_.edge(side).support;
+      if (support != Edge::Support::roller && support != Edge::Support::fixed) continue;
+      const bool across = side == Side::left || side == Side::right, all = support == Edge::Support::fixed;
+      for_nodes(side, [&](std::size_t i, std::size_t j) {
+        if (across || all) set(field.x, i, j, 0);
+        if (!across || all) set(field.y, i, j, 0);
+      });
+    }
+    return total;
+  }
+
+  const Plate& plate_;
+  Grid& grid_;
+  std::optional<Side> platen_;
+  std::vector<Driven> driven_;
+};
+
+}  // namespace diptych::mpm

@@ -1,0 +1,146 @@
+// What a particle's stress follows from: its total strain, the crack density of its cell, its plastic strain.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "diffusion/damage_evolution.hpp"
+#include "material/plate.hpp"
+#include "mpm/plate_grid.hpp"
+
+namespace diptych::mpm {
+
+/// A symmetric tensor on every particle, one array a component.
+struct TensorField {
+  std::vector<double> xx, yy, xy;
+  void resize(std::size_t count) {
+    for (auto* component : {&xx, &yy, &xy}) allocate(*component, count);
+  }
+  material::Tensor operator[](std::size_t p) const { return {xx[p], yy[p], xy[p]}; }
+  std::size_t bytes() const { return (xx.capacity() + yy.capacity() + xy.capacity()) * sizeof(double); }
+};
+
+template <bool damaging_, bool plastic_>
+class Law {
+ public:
+  static constexpr bool damaging = damaging_, plastic = plastic_;
+
+  Law(const Plate& plate, std::size_t cells, std::size_t particles) : whole_(elastic(plate).stiffness()) {
+    if constexpr (damaging) {
+      material_ = std::get<material::TensileDamage>(plate.material);
+      crack_density_.assign(cells, 0);
+      normal_.assign(cells, whole_.normal);
+      cross_.assign(cells, whole_.cross);
+      shear_.assign(cells, whole_.shear);
+    }
+    if constexpr (plastic) {
+      compression_ = *plate.compression;
+      plastic_strain_.resize(particles);
+    }
+  }
+
+  /// The law of a row of cells and its particles: plain addresses, for a loop.
+  struct Row {
+    material::Stiffness whole;
+    const double *normal = nullptr, *cross = nullptr, *shear = nullptr;
+    const material::Compression* compression = nullptr;
+    double *xx = nullptr, *yy = nullptr, *xy = nullptr;  // plastic strain
+
+    /// Of particle p in cell i of the row; brings the plastic strain up to date.
+    [[gnu::always_inline]] material::Tensor stress(const material::Tensor& strain, std::size_t i,
+                                                   [[maybe_unused]] std::size_t p) const {
+      const material::Stiffness now = stiffness(strain, i);
+      if constexpr (plastic) {
+        material::PlasticStrain state{xx[p], yy[p], xy[p]};
+        double dissipated = 0;
+        const material::Tensor stress = compression->stress(now, strain, state, dissipated);
+        xx[p] = state.xx;
+        yy[p] = state.yy;
+        xy[p] = state.xy;
+        return stress;
+      } else {
+        return now.stress(strain);
+      }
+    }
+    /// Cracks are open where the mean strain is not negative; its sign is that of ε_xx + ε_yy.
+    [[gnu::always_inline]] material::Stiffness stiffness(const material::Tensor& strain,
+                                                         [[maybe_unused]] std::size_t i) const {
+      if constexpr (damaging) {
+        const double n = normal[i], c = cross[i], s = shear[i];
+        const bool open = strain.xx + strain.yy >= 0;
+        return {open ? n : whole.normal, open ? c : whole.cross, open ? s : whole.shear};
+      } else {
+        return {whole.normal, whole.cross, whole.shear};
+      }
+    }
+  };
+
+  Row row(std::size_t first_cell, std::size_t first_particle) {
+    Row r;
+    r.whole = whole_;
+    if constexpr (damaging) {
+      r.normal = normal_.data() + first_cell;
+      r.cross = cross_.data() + first_cell;
+      r.shear = shear_.data() + first_cell;
+    }
+    if constexpr (plastic) {
+      r.compression = &compression_;
+      r.xx = plastic_strain_.xx.data() + first_particle;
+      r.yy = plastic_strain_.yy.data() + first_particle;
+      r.xy = plastic_strain_.xy.data() + first_particle;
+    }
+    return r;
+  }
+
+  material::Stiffness stiffness(const material::Tensor& strain, [[maybe_unused]] std::size_t cell) const {
+    if constexpr (damaging) {
+      if (strain.xx + strain.yy >= 0) return {normal_[cell], cross_[cell], shear_[cell]};
+    }
+    return whole_;
+  }
+  /// Stress that stands, for the books and for samples.
+  material::Tensor stress(const material::Tensor& strain, std::size_t cell, [[maybe_unused]] std::size_t p) const {
+    const material::Stiffness now = stiffness(strain, cell);
+    if constexpr (plastic) {
+      material::PlasticStrain copy = plastic_strain_[p];
+      double dissipated = 0;
+      return compression_.stress(now, strain, copy, dissipated);
+    }
+    return now.stress(strain);
+  }
+  /// Recoverable energy [J/m³].
+  double stored(const material::Tensor& strain, std::size_t cell, [[maybe_unused]] std::size_t p) const {
+    const material::Stiffness now = stiffness(strain, cell);
+    if constexpr (plastic) return material::Compression::stored(now, strain, plastic_strain_[p]);
+    return now.stress(strain).contract(strain) / 2;
+  }
+
+  /// New crack densities of the cells. A cell whose own did not change keeps its stiffness.
+  void crack(std::span<const double> density) {
+    for (std::size_t cell = 0; cell < density.size(); ++cell) {
+      if (density[cell] == crack_density_[cell]) continue;
+      crack_density_[cell] = density[cell];
+      const material::Stiffness now = material_.damaged_stiffness(density[cell]);
+      normal_[cell] = now.normal;
+      cross_[cell] = now.cross;
+      shear_[cell] = now.shear;
+    }
+  }
+
+  std::size_t bytes() const {
+    return plastic_strain_.bytes() +
+           (crack_density_.capacity() + normal_.capacity() + cross_.capacity() + shear_.capacity()) * sizeof(double);
+  }
+
+ private:
+  material::Stiffness whole_;
+  material::TensileDamage material_;
+  material::Compression compression_;
+  std::vector<double> crack_density_, normal_, cross_, shear_;  // of each cell, the last three in tension
+  TensorField plastic_strain_;
+};
+
+}  // namespace diptych::mpm
