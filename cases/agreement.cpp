@@ -131,14 +131,14 @@ void judge(const std::array<Series, 2>& both, const Apart& apart, const GateSpec
     if (!(apart.band[k] > 0)) invalid(fmt::format("{} cells{}: no uncertainty to compare with", both[0][k]->cells, when));
     hold(result, {fmt::format("{} cells{}: {:.3g} apart, expected within {:.3g}", both[0][k]->cells, when,
                               apart.difference[k], apart.band[k]),
-                  apart.difference[k], apart.band[k], 0, *gate.max, apart.difference[k] / apart.band[k], false});
+                  apart.difference[k], apart.band[k], -*gate.max, *gate.max, apart.difference[k] / apart.band[k], false});
     judged.push_back(apart.difference[k]);
   }
   if (judged.size() != gate.judged.size())
     invalid(fmt::format("{} of {} meshes to judge were run", judged.size(), gate.judged.size()));
-  if (judged.size() < 2) return;
+  if (judged.size() < 2 || !gate.shrinks) return;
   if (!(judged.front() > 1e-12 * apart.band.front())) invalid("the two methods give the same number: one of them twice?");
-  hold(result, {fmt::format("finest / coarsest difference{}", when), judged.back(), judged.front(), 0, 1,
+  hold(result, {fmt::format("finest / coarsest difference{}", when), judged.back(), judged.front(), -1, 1,
                 judged.back() / judged.front(), false});
 }
 
@@ -146,8 +146,8 @@ void judge(const std::array<Series, 2>& both, const Apart& apart, const GateSpec
 
 void judge_agreement(const Case& c, const GateSpec& gate, const std::vector<const Run*>& runs, reports::Gate& result) {
   const auto both = both_methods(runs);
-  result.formula = fmt::format("|{} − {}| of {} / √(U² + U²) ≤ {:g}, and it shrinks", both[0][0]->method,
-                               both[1][0]->method, gate.quantity, *gate.max);
+  result.formula = fmt::format("|{} − {}| of {} / √(U² + U²) ≤ {:g}{}", both[0][0]->method,
+                               both[1][0]->method, gate.quantity, *gate.max, gate.shrinks ? ", and it shrinks" : "");
   if (gate.quantity == "platen.history") {
     judge(both, of_histories(both), gate, "", result);
     return;

@@ -103,6 +103,7 @@ struct GateSpec {
   long steps = 2000;                           ///< limit: steps of each trial of the bisection
   std::vector<int> judged;                     ///< agreement: meshes on which the methods must agree
   double level = 0;                            ///< agreement of contours: of C_d
+  bool shrinks = true;                         ///< agreement: the difference must do so from coarse to fine
   bool slow = false;                           ///< left out by --quick, and then reported as left out
   int line = 0;                                ///< of its declaration
   std::string declaration;                     ///< its own keys and values in one canonical line, for gates.lock
@@ -117,7 +118,8 @@ struct FigureSpec {
   std::string id;                 ///< "fig1"
   std::string title;              ///< empty: the case's
   /// "profiles" of a field at some times, or "motion": positions over time. Of a plate "contours" of both methods and
-  /// their difference, "problem": the scene itself, "history" of the platen, or "choices": what each variant does.
+  /// their difference, "problem": the scene itself, "history" of the platen, "sweep" of a probe over
+  /// a swept parameter, or "choices": what each variant does.
   std::string kind = "profiles";
   std::string field = "stress";
   std::vector<double> times;          ///< subset of the sample times; empty: all
@@ -133,6 +135,7 @@ struct FigureSpec {
   std::optional<Zoom> zoom;                    ///< motion
   double magnify = 1;                          ///< motion: displacements are drawn so many times as large
   std::vector<double> levels;                  ///< contours, choices: of the field
+  std::string over, probe, variant;            ///< sweep: the parameter, what is drawn, and of which variant
 
   double courant_of(const std::string& method) const {
     const auto own = courants.find(method);

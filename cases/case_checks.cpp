@@ -189,7 +189,7 @@ Names variants_of(const Case& c) {
 }
 
 Names figure_kinds(const Case& c) {
-  if (c.plate) return {"contours", "problem", "history", "choices"};
+  if (c.plate) return {"contours", "problem", "history", "sweep", "choices"};
   return {"profiles", "motion"};
 }
 

@@ -436,6 +436,7 @@ GateSpec read_gate(Table& t, const Case& c) {
     gate.judged = t.need("judged", set_of(number_of_cells()));
     among(t.place("judged"), gate.judged, all_axes(c).cells, "axes.cells");
   }
+  if (c.plate && of("shrinks", {"agreement"})) gate.shrinks = t.get("shrinks", flag(), true);
   if (c.plate && t.applies("level", "quantity", gate.quantity, {"contour.distance"}))
     gate.level = t.need("level", positive());
   if (of("predict", {"constant", "limit"}) && (!limit || of_limit("predict", "critical_courant")))
@@ -465,10 +466,19 @@ FigureSpec read_figure(Table& t, const Case& c) {
     if (of("field", {"contours", "choices"}))
       figure.field = t.get("field", one_of({"crack-density", "damage"}), "crack-density");
     if (of("levels", {"contours", "choices"})) figure.levels = t.need("levels", set_of(positive()));
+    if (of("over", {"sweep"})) {
+      Names swept, probes;
+      for (const auto& entry : all_axes(c).parameters) swept.push_back(entry.first);
+      for (const PlateProbe& probe : c.plate_probes) probes.push_back(probe.id);
+      figure.over = t.need("over", one_of(swept));
+      figure.probe = t.need("probe", one_of(probes));
+      figure.variant = t.get("variant", one_of(variants_of(c)));
+    }
+    for (const char* key : {"probe", "variant"}) of(key, {"sweep"});
   } else if (of("field", {"profiles"})) {
     figure.field = t.get("field", one_of(fields), figure.field);
   }
-  if (of("times", {"profiles", "contours", "choices"})) figure.times = read_times(t, c);
+  if (of("times", {"profiles", "contours", "choices", "sweep"})) figure.times = read_times(t, c);
   if (of("captions", {"profiles"})) figure.captions = t.get("captions", list_of(text()));
   if (of("magnify", {"motion"})) figure.magnify = t.get("magnify", positive(), figure.magnify);
   if (of("zoom", {"motion"})) {
@@ -516,7 +526,7 @@ FigureSpec read_figure(Table& t, const Case& c) {
     }
   });
   for (const auto& [name, values] : axes.parameters) {
-    if (figure.parameters.contains(name)) continue;
+    if (figure.parameters.contains(name) || name == figure.over) continue;
     if (values.size() > 1)
       t.place("parameters")
           .say("missing " + words(name) + ", which is swept; allowed: one value of it, " + joined(values));
@@ -535,6 +545,7 @@ FigureSpec read_figure(Table& t, const Case& c) {
     good &= among(t.place("particles"), std::vector<std::vector<double>>{figure.particles}, axes.particles,
                   "axes.particles");
   const std::vector<Leaf> runs = leaves(c);
+  if (figure.kind == "problem" || figure.kind == "sweep") return figure;  // of no run, or of many
   for (const std::string& method : figure.methods) {
     const Leaf leaf{method, figure.cells, figure.courant_of(method),
                     method.starts_with("mpm") ? figure.particles : std::vector<double>{}, figure.parameters};

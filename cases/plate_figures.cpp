@@ -229,6 +229,48 @@ reports::Figure history_figure(const Case& c, const FigureSpec& spec, const std:
   return figure;
 }
 
+reports::Figure sweep_figure(const Case& c, const FigureSpec& spec, const std::vector<reports::Run>& runs) {
+  const double time = (spec.times.empty() ? c.times : spec.times).back();
+  const auto swept = std::find_if(c.axes.begin(), c.axes.end(),
+                                  [&](const Axes& axes) { return axes.parameters.contains(spec.over); });
+  reports::Figure figure;
+  figure.id = spec.id;
+  figure.title = title_of(c, spec);
+  figure.notes = notes_of(c, spec);
+  figure.x_label = spec.over;
+  figure.y_label = fmt::format("{} at {}", spec.probe, in_ms(time));
+  figure.y_min = figure.y_max = 0;
+  if (swept == c.axes.end()) return figure;
+  const auto& values = swept->parameters.at(spec.over);
+  figure.x_min = *std::min_element(values.begin(), values.end());
+  figure.x_max = *std::max_element(values.begin(), values.end());
+  for (const int cells : swept->cells) {
+    const Cells mesh = cells_of(*c.plate, cells);
+    reports::Figure::Panel panel;
+    panel.label = fmt::format("{} × {} cells", mesh.x, mesh.y);
+    for (const std::string& method : spec.methods) {
+      reports::Curve curve;
+      for (const double value : values) {
+        FigureSpec one = spec;
+        one.cells = cells;
+        one.parameters[spec.over] = value;
+        double y = std::nan("");
+        if (const reports::Run* run = find(runs, one, method, spec.variant))
+          for (const auto& sample : run->samples)
+            for (const auto& probe : sample.probes)
+              if (sample.asked == time && probe.id == spec.probe) y = probe.value;
+        curve.x.push_back(value);
+        curve.y.push_back(y);
+        if (std::isfinite(y)) figure.y_max = std::max(figure.y_max, y);
+      }
+      panel.series.push_back({name_of(method), kind_of(method), std::move(curve)});
+    }
+    figure.panels.push_back(std::move(panel));
+  }
+  figure.y_max *= 1.05;
+  return figure;
+}
+
 void add_choices(const Case& c, const FigureSpec& spec, const std::vector<reports::Run>& runs, reports::Case& result) {
   const double time = (spec.times.empty() ? c.times : spec.times).back(), level = spec.levels.front();
   const std::string symbol = symbol_of(spec.field);

@@ -14,6 +14,8 @@ NodalMap map_of(const reports::PlateFields&, const std::string& field);
 reports::PlateFigure contour_figure(const Case&, const FigureSpec&, const std::vector<reports::Run>&);
 reports::ProblemFigure problem_figure(const Case&, const FigureSpec&);
 reports::Figure history_figure(const Case&, const FigureSpec&, const std::vector<reports::Run>&);
+/// A probe at the last of the figure's times over a swept parameter, a panel for each mesh.
+reports::Figure sweep_figure(const Case&, const FigureSpec&, const std::vector<reports::Run>&);
 /// What each variant does to the contour: a page, and a picture for each of its rows.
 void add_choices(const Case&, const FigureSpec&, const std::vector<reports::Run>&, reports::Case&);
 

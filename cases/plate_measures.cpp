@@ -38,19 +38,21 @@ std::vector<double> cells_to_nodes(const diffusion::Grid& grid, const std::vecto
   return nodes;
 }
 
-/// The cell whose acoustic tensor is the least, of its mean strain taken as equal in both directions of the plane.
+/// The least over the cells, of their mean strains. The tangent follows the strain where the local model is being
+/// loaded: where C_d is that of eq. 23a now. NaN where a strain is; the whole solid's 1 where no cell is in tension.
 material::Bifurcation least_bifurcation(const Case& c, const PlateSnapshot& snapshot) {
   const material::TensileDamage& law = damage_of(c);
-  material::Bifurcation least{std::numeric_limits<double>::infinity(), 0};
-  const bool local = !c.plate->evolution->diffusion;
+  const diffusion::Evolution& evolution = *c.plate->evolution;
+  material::Bifurcation least{1, 0};
   for (std::size_t cell = 0; cell < snapshot.crack_density.size(); ++cell) {
     const double volumetric = snapshot.volumetric_strain[cell], crack_density = snapshot.crack_density[cell];
-    if (!(volumetric > 0)) continue;
-    const double rate = local && volumetric > 0 && crack_density < c.plate->evolution->cap
-                            ? law.exponent * crack_density / volumetric
-                            : 0;
+    const bool follows = !evolution.diffusion && evolution.rate == diffusion::Rate::reference && volumetric > 0 &&
+                         crack_density < evolution.cap &&
+                         crack_density <= law.crack_density(volumetric, evolution.reference_rate) * (1 + 1e-9);
+    const double rate = follows ? law.exponent * crack_density / volumetric : 0;
     const auto found = material::bifurcation(law, snapshot.strain[cell], crack_density, rate);
-    if (found.least_ratio < least.least_ratio) least = found;
+    if (!(found.least_ratio >= least.least_ratio)) least = found;
+    if (std::isnan(found.least_ratio)) return found;
   }
   return least;
 }

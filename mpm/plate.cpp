@@ -76,14 +76,14 @@ class Body {
   // Update stress first: (vⁿ, σⁿ⁻½) → (vⁿ⁺¹, σⁿ⁺½).
   void step_usf(long n, Ledger* ledger) {
     const Kick kick = kick_after(n, dt_);
-    if (n > 0) {  // the half-step from 0 to ½ is behind
+    if (n > 0) {                              // the half-step from 0 to ½ is behind
       update_strain(grid_.velocity, ledger);  // with the particles' velocities; eq. 19
       if (ledger) account_for_remapping(ledger);
     } else {
       internal_force();  // eq. 19
     }
-    external_force(kick);             // eqs. 17a, 20
-    integrate_momentum(kick);         // eq. 18
+    external_force(kick);      // eqs. 17a, 20
+    integrate_momentum(kick);  // eq. 18
     if (ledger) begin_kick(kick, ledger);
     kick_and_move(kick.length, dt_);  // eqs. 11, 9, 10, and the new momentum mapped
     if (ledger) end_kick(kick, ledger);
@@ -173,8 +173,8 @@ class Body {
   double energy() {
     if (row_sums_.empty()) return 0;
     return kinetic_energy() + sum([&](const Place& at) {
-             return law_.stored(particles_.state().strain[at.particle], at.cell, at.particle);
-           }) * particles_.state().volume;
+                                return law_.stored(particles_.state().strain[at.particle], at.cell, at.particle);
+                              }) * particles_.state().volume;
   }
   /// The books hold one number: the component of the momentum along (1, 1).
   double momentum() {
@@ -330,7 +330,9 @@ class Body {
       particles_.template strain_and_force<Do::force>(bands_, grid_.velocity, 0, law_);
   }
 
-  /// Tractions on the nodes of the sides, each node for half of the cells' sides beside it, and the body force.
+  /// Tractions on the nodes of the sides, and the body force. A node takes its part of the sides of the cells beside it
+  /// as the particles divide them: half, where they stand evenly. So uniform stress is in equilibrium with its
+  /// tractions.
   void external_force(const Kick& kick) {
     nodal_forces_.clear();
     for (const Side side : sides) {
@@ -340,11 +342,11 @@ class Body {
       const double normal = (outward(side) ? 1 : -1) * mean(edge_of_plate.normal_traction);
       const double shear = mean(edge_of_plate.shear_traction), h = across(side) ? grid_.hy : grid_.hx;
       supports_.for_nodes(side, [&](std::size_t i, std::size_t j) {
-        const bool corner = across(side) ? j == 0 || j == grid_.ny : i == 0 || i == grid_.nx;
-        const double length = corner ? h / 2 : h;
-        nodal_forces_.push_back({grid_.row(j) + i, grid_.mass_of(i, j),
-                                 across(side) ? Vector{length * normal, length * shear}
-                                              : Vector{length * shear, length * normal}});
+        const std::size_t k = across(side) ? j : i, last = across(side) ? grid_.ny : grid_.nx;
+        const double length = k == 0 ? h * places_.near() : k == last ? h * places_.far() : h;
+        nodal_forces_.push_back(
+            {grid_.row(j) + i, grid_.mass_of(i, j),
+             across(side) ? Vector{length * normal, length * shear} : Vector{length * shear, length * normal}});
       });
     }
     for (const NodalForce& f : nodal_forces_) {
@@ -420,8 +422,7 @@ class Body {
     if (ledger) {
       half_work_ = work_of_stress(velocity) / 2;
       // By the trapezium of the leapfrog; nothing where the law is linear.
-      const double dissipated =
-          damaging || PlateLaw::plastic ? stored_and_half + half_work_ - stored_energy() : 0;
+      const double dissipated = damaging || PlateLaw::plastic ? stored_and_half + half_work_ - stored_energy() : 0;
       ledger->close_line(kinetic_energy(), stored_and_half, dissipated, momentum());
     }
   }
@@ -464,8 +465,7 @@ class Body {
     const double excess = scheme_ == Scheme::usl ? driven_excess_ : (driven_excess_ + excess_of_driven()) / 2;
     ledger->take_by_scheme(-kick.length * excess);
     // USF: the internal work of the kick's second half, at the places where its forces were found.
-    if (convected && scheme_ == Scheme::usf)
-      half_work_of_kick_ = kick.length * (power(grid_.velocity) - external) / 2;
+    if (convected && scheme_ == Scheme::usf) half_work_of_kick_ = kick.length * (power(grid_.velocity) - external) / 2;
   }
 
   /// What the scheme takes on its way from one map to the next. The strain was updated with one map's velocities, half
@@ -484,9 +484,9 @@ class Body {
       grid += m * (ax * ax + ay * ay);
     });
     const double particles = particles_.state().mass * sum([&](const Place& at) {
-      const Vector a = at.value(grid_.acceleration);
-      return a[0] * a[0] + a[1] * a[1];
-    });
+                               const Vector a = at.value(grid_.acceleration);
+                               return a[0] * a[0] + a[1] * a[1];
+                             });
     ledger->take_by_scheme(kick * kick / 2 * (grid - particles));
   }
 
@@ -494,14 +494,14 @@ class Body {
   void account_for_pic(double kick, Ledger* ledger) {
     const double share = scheme_ == Scheme::usl ? 1 : 0.5;  // of the kick in the velocity that d works on
     const double given = particles_.state().mass * sum([&](const Place& at) {
-      const Vector a = at.value(grid_.acceleration), v = at.value(grid_.velocity);
-      const auto component = [&](double mine, double grid, double kicked) {
-        const double d = plate_.pic * (grid - mine);
-        return (mine + share * kick * kicked + d / 2) * d;
-      };
-      return component(particles_.state().velocity.x[at.particle], v[0], a[0]) +
-             component(particles_.state().velocity.y[at.particle], v[1], a[1]);
-    });
+                           const Vector a = at.value(grid_.acceleration), v = at.value(grid_.velocity);
+                           const auto component = [&](double mine, double grid, double kicked) {
+                             const double d = plate_.pic * (grid - mine);
+                             return (mine + share * kick * kicked + d / 2) * d;
+                           };
+                           return component(particles_.state().velocity.x[at.particle], v[0], a[0]) +
+                                  component(particles_.state().velocity.y[at.particle], v[1], a[1]);
+                         });
     ledger->take_by_scheme(-given);
   }
 
@@ -651,20 +651,15 @@ PlateRecord run(const Plate& plate, const Cells& cells, const std::vector<double
     record.fed = body.fed();
     return record;
   };
-  const auto standing = [&]<std::size_t n>() {
-    const bool damaging = evolution.has_value(), plastic = plate.compression.has_value();
-    if (damaging && plastic) return go.template operator()<Standing<n>, true, true>();
-    if (damaging) return go.template operator()<Standing<n>, true, false>();
-    if (plastic) return go.template operator()<Standing<n>, false, true>();
-    return go.template operator()<Standing<n>, false, false>();
-  };
   if (plate.convected) {
     return plate.compression ? go.template operator()<Moving, false, true>()
                              : go.template operator()<Moving, false, false>();
   }
-  if (positions.size() == 1) return standing.template operator()<1>();
-  if (positions.size() == 2) return standing.template operator()<2>();
-  return standing.template operator()<0>();
+  const bool damaging = evolution.has_value(), plastic = plate.compression.has_value();
+  if (damaging && plastic) return go.template operator()<Standing, true, true>();
+  if (damaging) return go.template operator()<Standing, true, false>();
+  if (plastic) return go.template operator()<Standing, false, true>();
+  return go.template operator()<Standing, false, false>();
 }
 
 }  // namespace diptych::mpm

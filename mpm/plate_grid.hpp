@@ -1,6 +1,10 @@
 // The background grid of the plate: 4-node cells, what supports do to its nodes, and how cells' shares add up on them.
 #pragma once
 
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,9 +12,6 @@
 #include <memory>
 #include <utility>
 #include <vector>
-
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include "material/plate.hpp"
 
@@ -54,15 +55,15 @@ inline std::size_t off_pages(std::size_t length, std::size_t rows) {
 
 /// Nodes row by row from the bottom, each row from the left.
 struct Grid {
-  std::size_t nx = 1, ny = 1;  ///< cells across and up
-  double hx = 1, hy = 1;       ///< of a cell [m]
-  double left = 0, bottom = 0; ///< where the first node stands [m]
-  std::size_t stride = 2;      ///< from a node to the one above it, ≥ nx + 1
-  bool alike = true;           ///< all rows between the bottom and the top one have the same masses, stored once
-  std::vector<double> mass;    ///< [kg]
-  VectorField velocity;        ///< mapped from the particles [m/s]
-  VectorField acceleration;    ///< [m/s²]
-  VectorField kicked;          ///< the grid's own new velocity, kept for USL only [m/s]
+  std::size_t nx = 1, ny = 1;   ///< cells across and up
+  double hx = 1, hy = 1;        ///< of a cell [m]
+  double left = 0, bottom = 0;  ///< where the first node stands [m]
+  std::size_t stride = 2;       ///< from a node to the one above it, ≥ nx + 1
+  bool alike = true;            ///< all rows between the bottom and the top one have the same masses, stored once
+  std::vector<double> mass;     ///< [kg]
+  VectorField velocity;         ///< mapped from the particles [m/s]
+  VectorField acceleration;     ///< [m/s²]
+  VectorField kicked;           ///< the grid's own new velocity, kept for USL only [m/s]
 
   std::size_t row_length() const { return nx + 1; }
   std::size_t next_row() const { return stride; }
@@ -99,8 +100,8 @@ struct Band {
   std::array<std::vector<double>, 2> low, high;              ///< kicked velocities of the row's bottom and top nodes
 };
 
-/// The rows' bands and the threads that take them. Nothing of a sum depends on their number: a node's value is (what the
-/// row below gives) + (what the row above gives), and each of the two is (left cell) + (right cell).
+/// The rows' bands and the threads that take them. Nothing of a sum depends on their number: a node's value is (what
+/// the row below gives) + (what the row above gives), and each of the two is (left cell) + (right cell).
 class Bands {
  public:
   Bands(std::size_t rows, std::size_t row_length, int threads) {
@@ -118,7 +119,10 @@ class Bands {
         }
       }
     }
-    if (count > 1) arena_ = std::make_unique<tbb::task_arena>(static_cast<int>(count));
+    if (count > 1) {
+      const int at_hand = std::min(static_cast<int>(count), tbb::info::default_concurrency());
+      arena_ = std::make_unique<tbb::task_arena>(at_hand);
+    }
   }
 
   template <class F>
@@ -127,8 +131,7 @@ class Bands {
       f(bands_[0]);
       return;
     }
-    arena_->execute(
-        [&] { tbb::parallel_for(std::size_t{0}, bands_.size(), [&](std::size_t b) { f(bands_[b]); }); });
+    arena_->execute([&] { tbb::parallel_for(std::size_t{0}, bands_.size(), [&](std::size_t b) { f(bands_[b]); }); });
   }
 
   /// Calls cells(j, band) for each row of cells, which leaves what they give to their nodes in band.shares, and
@@ -190,6 +193,8 @@ class Supports {
       if (plate.edge(side).support == Edge::Support::platen) platen_ = side;
       if (plate.edge(side).support == Edge::Support::driven) {
         for_nodes(side, [&](std::size_t i, std::size_t j) {
+          const auto here = [&](const Driven& d) { return d.i == i && d.j == j; };
+          if (std::any_of(driven_.begin(), driven_.end(), here)) return;  // a corner goes with the first of its sides
           const Vector v = plate.initial_velocity ? plate.initial_velocity(grid.x(i), grid.y(j)) : Vector{0, 0};
           driven_.push_back({i, j, side, v, v});
         });

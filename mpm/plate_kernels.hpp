@@ -8,8 +8,8 @@
 #include "mpm/plate_grid.hpp"
 #include "mpm/plate_law.hpp"
 
-// The same bits on every processor: wider registers, no fused multiply-add. (ThreadSanitizer cannot start a program that
-// chooses its functions while loading.)
+// The same bits on every processor: wider registers, no fused multiply-add. (ThreadSanitizer cannot start a program
+// that chooses its functions while loading.)
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__SANITIZE_THREAD__)
 #define DIPTYCH_WIDE [[gnu::target_clones("avx2", "default")]]
 #else
@@ -74,10 +74,11 @@ struct ShareRows {
 };
 
 /// One component of v += τ Σ N a (eq. 11) and u += Δt Σ N v (eqs. 9, 10) of the particles of a row of cells, and their
-/// new Σ N v on the nodes, in units of a particle's mass. Particles of one place begin `stride` after those of the last. With a part of PIC, that part of the velocity is the grid's.
+/// new Σ N v on the nodes, in units of a particle's mass. Particles of one place begin `stride` after those of the
+/// last. With a part of PIC, that part of the velocity is the grid's.
 template <std::size_t n, bool pic>
-DIPTYCH_WIDE void kick_row(const Arrangement& places, std::size_t cells, std::size_t stride, double kick, double drift, double part,
-                           NodeRows acceleration, NodeRows kicked, double* velocity, double* displacement,
+DIPTYCH_WIDE void kick_row(const Arrangement& places, std::size_t cells, std::size_t stride, double kick, double drift,
+                           double part, NodeRows acceleration, NodeRows kicked, double* velocity, double* displacement,
                            ShareRows out) {
   const double* __restrict al = acceleration.low;
   const double* __restrict ah = acceleration.high;
@@ -106,7 +107,8 @@ DIPTYCH_WIDE void kick_row(const Arrangement& places, std::size_t cells, std::si
       });
     });
     const auto along = [&](const std::array<double, Arrangement::most>& weight, std::size_t b) DIPTYCH_INLINE {
-      return pair_sum<n>(count, [&](std::size_t a) DIPTYCH_INLINE { return weight[a] * velocity[(b * count + a) * stride + i]; });
+      return pair_sum<n>(
+          count, [&](std::size_t a) DIPTYCH_INLINE { return weight[a] * velocity[(b * count + a) * stride + i]; });
     };
     bottom_left[i] = pair_sum<n>(count, [&](std::size_t b) DIPTYCH_INLINE { return near[b] * along(near, b); });
     bottom_right[i] = pair_sum<n>(count, [&](std::size_t b) DIPTYCH_INLINE { return near[b] * along(far, b); });
@@ -125,8 +127,8 @@ enum class Do { strain, force, both };
 
 /// Strain increments Δt ∇v of the particles of a row of cells, and the internal forces of their stress (eq. 19).
 template <std::size_t n, Do what, class LawRow>
-DIPTYCH_WIDE void strain_row(const Arrangement& places, std::size_t cells, std::size_t stride, double dt, double hx, double hy,
-                             double volume, NodeRows velocity_x, NodeRows velocity_y, TensorRows strain,
+DIPTYCH_WIDE void strain_row(const Arrangement& places, std::size_t cells, std::size_t stride, double dt, double hx,
+                             double hy, double volume, NodeRows velocity_x, NodeRows velocity_y, TensorRows strain,
                              LawRow law, ShareRows out_x, ShareRows out_y) {
   constexpr std::size_t most = n > 0 ? n : Arrangement::most;
   const std::size_t count = n > 0 ? n : places.count;
@@ -175,16 +177,21 @@ DIPTYCH_WIDE void strain_row(const Arrangement& places, std::size_t cells, std::
       // ∂N/∂x is ∓1/hx times the shape function along y, ∂N/∂y ∓1/hy times the one along x.
       const auto rows = [&](const std::array<double, Arrangement::most>& weight, const auto& component) DIPTYCH_INLINE {
         return area_x * pair_sum<n>(count, [&](std::size_t b) DIPTYCH_INLINE {
-                 return weight[b] * pair_sum<n>(count, [&](std::size_t a) DIPTYCH_INLINE { return component[b * count + a]; });
+                 return weight[b] *
+                        pair_sum<n>(count, [&](std::size_t a) DIPTYCH_INLINE { return component[b * count + a]; });
                });
       };
-      const auto columns = [&](const std::array<double, Arrangement::most>& weight, const auto& component) DIPTYCH_INLINE {
+      const auto columns = [&](const std::array<double, Arrangement::most>& weight,
+                               const auto& component) DIPTYCH_INLINE {
         return area_y * pair_sum<n>(count, [&](std::size_t a) DIPTYCH_INLINE {
-                 return weight[a] * pair_sum<n>(count, [&](std::size_t b) DIPTYCH_INLINE { return component[b * count + a]; });
+                 return weight[a] *
+                        pair_sum<n>(count, [&](std::size_t b) DIPTYCH_INLINE { return component[b * count + a]; });
                });
       };
-      const double x_low = rows(near, xx), x_high = rows(far, xx), x_left = columns(near, xy), x_right = columns(far, xy);
-      const double y_low = rows(near, xy), y_high = rows(far, xy), y_left = columns(near, yy), y_right = columns(far, yy);
+      const double x_low = rows(near, xx), x_high = rows(far, xx), x_left = columns(near, xy),
+                   x_right = columns(far, xy);
+      const double y_low = rows(near, xy), y_high = rows(far, xy), y_left = columns(near, yy),
+                   y_right = columns(far, yy);
       xbl[i] = x_low + x_left;
       xbr[i] = x_right - x_low;
       xtl[i] = x_high - x_left;

@@ -3,8 +3,8 @@
 //   USF, MUSL:  V' = F V − Δt W A q,   q' = q + Δt V'
 //   USL:        V' = F V − Δt W A q,   q' = q + Δt (V − Δt A q)
 // with F = 1 − part of PIC · (1 − W). Both leave the unit circle at −1, where (1 + F) q = (x/2) W A q, and with USL
-// (1 + F) q = (x/2)(1 + F − W) A q, x = Δt². So Δt = 2/√λ with λ the largest eigenvalue of φ(W) A, and φ(w) = 2w/(1 + f),
-// with USL 2(1 + f − w)/(1 + f). Without PIC f = 1: φ = w and 2 − w. For USF and MUSL and for USL without PIC the
+// (1 + F) q = (x/2)(1 + F − W) A q, x = Δt². So Δt = 2/√λ with λ the largest eigenvalue of φ(W) A, and φ(w) = 2w/(1 +
+// f), with USL 2(1 + f − w)/(1 + f). Without PIC f = 1: φ = w and 2 − w. For USF and MUSL and for USL without PIC the
 // condition is sufficient too: the quadratic form of any eigenvector is a real quadratic with its roots in the circle.
 #include <Eigen/Dense>
 #include <algorithm>
@@ -152,17 +152,22 @@ double block(const Setting& s, const Plate& plate, bool free, int nx, int ny) {
   }
   const Matrix w = Q.transpose() * both * Q, A = Q.transpose() * K * Q;
   const Matrix one = Matrix::Identity(w.rows(), w.cols()), F = one - s.pic * (one - w);
-  const Matrix inverse = (one + F).inverse(), phi = s.scheme == Scheme::usl ? Matrix(2 * inverse * (one + F - w))
-                                                                            : Matrix(2 * inverse * w);
+  const Matrix inverse = (one + F).inverse(),
+               phi = s.scheme == Scheme::usl ? Matrix(2 * inverse * (one + F - w)) : Matrix(2 * inverse * w);
   return Eigen::EigenSolver<Matrix>(phi * A, false).eigenvalues().real().maxCoeff();
 }
 
 }  // namespace
 
-double critical_time_step(const Plate& plate, const Cells& cells, const std::vector<double>& positions,
-                          Scheme scheme) {
-  Setting s{elastic(plate).stiffness(), elastic(plate).density, plate.width / cells.x, plate.height / cells.y, scheme,
-            plate.pic, {}, {}};
+double critical_time_step(const Plate& plate, const Cells& cells, const std::vector<double>& positions, Scheme scheme) {
+  Setting s{elastic(plate).stiffness(),
+            elastic(plate).density,
+            plate.width / cells.x,
+            plate.height / cells.y,
+            scheme,
+            plate.pic,
+            {},
+            {}};
   for (const double xi : positions) {
     const double offset = std::clamp(xi - 0.5, -edge, edge);
     s.near.push_back(0.5 - offset);
@@ -171,8 +176,9 @@ double critical_time_step(const Plate& plate, const Cells& cells, const std::vec
   const bool anywhere = plate.convected && scheme != Scheme::usl;
   double largest = interior(s, anywhere);
   if (!anywhere) {
-    // A block of 8 × 8 and one of 7 × 7 cells: what is special at sides and corners reaches a few cells inwards, and odd
-    // and even numbers differ by a per cent. Smaller plates are looked at whole, narrow strips over a greater length.
+    // A block of 8 × 8 and one of 7 × 7 cells: what is special at sides and corners reaches a few cells inwards, and
+    // odd and even numbers differ by a per cent. Smaller plates are looked at whole, narrow strips over a greater
+    // length.
     const auto is_free = [&](Side at) { return plate.edge(at).support == Edge::Support::free; };
     const bool all_free = is_free(Side::left) && is_free(Side::right) && is_free(Side::bottom) && is_free(Side::top);
     const auto along = [](int cells_along, int cells_aside, int less) {

@@ -25,6 +25,9 @@ struct Places {
     for (const double xi : positions) offset.push_back(std::clamp(xi - 0.5, -edge, edge));
   }
   std::size_t count() const { return offset.size(); }
+  /// Means of the shape functions of the nodes at smaller and larger coordinates.
+  double near() const { return 0.5 - mean(); }
+  double far() const { return 0.5 + mean(); }
   Arrangement arrangement() const {
     Arrangement places;
     places.count = count();
@@ -33,6 +36,11 @@ struct Places {
       places.far[a] = 0.5 + offset[a];
     }
     return places;
+  }
+
+ private:
+  double mean() const {
+    return pair_sum<0>(count(), [&](std::size_t a) { return offset[a]; }) / static_cast<double>(count());
   }
 };
 
@@ -50,7 +58,8 @@ struct State {
   std::size_t bytes() const { return velocity.bytes() + displacement.bytes() + strain.bytes(); }
 };
 
-/// Where a particle is: its cell's first node, its shape functions along x and y (eq. 7 is their product), and who it is.
+/// Where a particle is: its cell's first node, its shape functions along x and y (eq. 7 is their product), and who it
+/// is.
 struct Place {
   std::size_t particle, node, next_row, cell;
   double left, right, bottom, top;
@@ -74,7 +83,6 @@ struct Place {
 
 /// Infinitesimal displacements: particles keep their places, the same in every cell, and nothing of them is stored. In
 /// each row of cells those of one place stand side by side: particle (row · places + place) · stride + column.
-template <std::size_t n>
 class Standing {
  public:
   static constexpr bool moving = false;
@@ -112,10 +120,9 @@ class Standing {
             (static_cast<double>(j) + 0.5 + offset_[k / places_.count]) * grid_.hy};
   }
 
-  void map_mass(Bands& bands) {  // eq. 15: the product of what stands beside and above a node
-    (void)bands;
-    const double near = pair_sum<n>(places_.count, [&](std::size_t a) { return places_.near[a]; });
-    const double far = pair_sum<n>(places_.count, [&](std::size_t a) { return places_.far[a]; });
+  void map_mass(Bands&) {  // eq. 15: the product of what stands beside and above a node
+    const double near = pair_sum<0>(places_.count, [&](std::size_t a) { return places_.near[a]; });
+    const double far = pair_sum<0>(places_.count, [&](std::size_t a) { return places_.far[a]; });
     const auto along = [&](std::size_t node, std::size_t last) {
       return node == 0 ? near : node == last ? far : far + near;
     };
@@ -139,12 +146,13 @@ class Standing {
   void strain_and_force(Bands& bands, const VectorField& velocity, double dt, LawOf& law) {
     const auto cells = [&](std::size_t j, Band& band) {
       const std::size_t first = index(0, j, 0), low = grid_.row(j), high = grid_.row(j + 1);
-      strain_row<n, what>(places_, grid_.nx, stride_, dt, grid_.hx, grid_.hy, state_.volume,
-                          {velocity.x.data() + low, velocity.x.data() + high},
-                          {velocity.y.data() + low, velocity.y.data() + high},
-                          {state_.strain.xx.data() + first, state_.strain.yy.data() + first,
-                           state_.strain.xy.data() + first},
-                          law.row(j * grid_.nx, first), ShareRows(band.shares[0]), ShareRows(band.shares[1]));
+      with_count([&]<std::size_t n>() {
+        strain_row<n, what>(
+            places_, grid_.nx, stride_, dt, grid_.hx, grid_.hy, state_.volume,
+            {velocity.x.data() + low, velocity.x.data() + high}, {velocity.y.data() + low, velocity.y.data() + high},
+            {state_.strain.xx.data() + first, state_.strain.yy.data() + first, state_.strain.xy.data() + first},
+            law.row(j * grid_.nx, first), ShareRows(band.shares[0]), ShareRows(band.shares[1]));
+      });
     };
     if constexpr (what == Do::strain) {
       bands.for_each([&](Band& band) {
@@ -158,11 +166,12 @@ class Standing {
   /// Mean of a cell's strains.
   material::Tensor mean_strain(std::size_t i, std::size_t j) const {
     const auto mean = [&](const std::vector<double>& component) {
-      return pair_sum<n>(places_.count, [&](std::size_t b) {
-               return pair_sum<n>(places_.count, [&](std::size_t a) {
-                 return component[index(i, j, b * places_.count + a)];
-               });
-             }) /
+      return pair_sum<0>(places_.count,
+                         [&](std::size_t b) {
+                           return pair_sum<0>(places_.count, [&](std::size_t a) {
+                             return component[index(i, j, b * places_.count + a)];
+                           });
+                         }) /
              static_cast<double>(per_cell());
     };
     return {mean(state_.strain.xx), mean(state_.strain.yy), mean(state_.strain.xy)};
@@ -182,6 +191,17 @@ class Standing {
   }
 
  private:
+  /// One and two particles along a side are known to the compiler beforehand.
+  template <class F>
+  void with_count(F&& f) const {
+    if (places_.count == 1)
+      f.template operator()<1>();
+    else if (places_.count == 2)
+      f.template operator()<2>();
+    else
+      f.template operator()<0>();
+  }
+
   template <bool pic>
   void kick_and_move(Bands& bands, double kick, double drift, double part, bool from_kicked) {
     const std::size_t length = grid_.row_length();
@@ -208,8 +228,10 @@ class Standing {
           const std::size_t first = index(0, j, 0), low = grid_.row(j), high = grid_.row(j + 1);
           const auto row = [&](std::size_t c, const std::vector<double>& a, NodeRows k, std::vector<double>& v,
                                std::vector<double>& u) {
-            kick_row<n, pic>(places_, grid_.nx, stride_, kick, drift, part, {a.data() + low, a.data() + high}, k,
-                             v.data() + first, u.data() + first, ShareRows(band.shares[c]));
+            with_count([&]<std::size_t n>() {
+              kick_row<n, pic>(places_, grid_.nx, stride_, kick, drift, part, {a.data() + low, a.data() + high}, k,
+                               v.data() + first, u.data() + first, ShareRows(band.shares[c]));
+            });
           };
           row(0, grid_.acceleration.x, kx, state_.velocity.x, state_.displacement.x);
           row(1, grid_.acceleration.y, ky, state_.velocity.y, state_.displacement.y);
@@ -290,18 +312,23 @@ class Moving {
   }
 
   void map_mass(Bands& bands) {  // eq. 15
-    gather(bands, [&](const Place&) { return Vector{state_.mass, 0}; },
-           [&](std::size_t j, const double* x, const double*) {
-             std::copy(x, x + grid_.row_length(), grid_.mass.begin() + static_cast<std::ptrdiff_t>(grid_.row(j)));
-           });
+    gather(
+        bands,
+        [&](const Place&) {
+          return Vector{state_.mass, 0};
+        },
+        [&](std::size_t j, const double* x, const double*) {
+          std::copy(x, x + grid_.row_length(), grid_.mass.begin() + static_cast<std::ptrdiff_t>(grid_.row(j)));
+        });
   }
 
   void map_momentum(Bands& bands) {
-    gather(bands,
-           [&](const Place& at) {
-             return Vector{state_.mass * state_.velocity.x[at.particle], state_.mass * state_.velocity.y[at.particle]};
-           },
-           [&](std::size_t j, const double* x, const double* y) { divide_by_mass(grid_.velocity, j, x, y); });
+    gather(
+        bands,
+        [&](const Place& at) {
+          return Vector{state_.mass * state_.velocity.x[at.particle], state_.mass * state_.velocity.y[at.particle]};
+        },
+        [&](std::size_t j, const double* x, const double* y) { divide_by_mass(grid_.velocity, j, x, y); });
   }
 
   void kick_and_move(Bands& bands, double kick, double drift, double pic, bool) {
@@ -446,7 +473,8 @@ class Moving {
 
   void cross(std::size_t p, double x, double y) {
     const auto along = [&](double offset, std::size_t cell, std::size_t cells, double& kept) {
-      const double crossed = std::abs(offset) > 0.5 ? std::round(offset) : 0, target = static_cast<double>(cell) + crossed;
+      const double crossed = std::abs(offset) > 0.5 ? std::round(offset) : 0,
+                   target = static_cast<double>(cell) + crossed;
       if (target >= 0 && target < static_cast<double>(cells)) {
         kept = std::clamp(offset - crossed, -edge, edge);
         return static_cast<std::size_t>(target);

@@ -60,8 +60,8 @@ struct Sample {
   std::vector<ProbeValue> probes;
   std::map<std::string, Curve> curves;        ///< field -> numerical field (filled only where a figure asks)
   std::map<std::string, Curve> exact_curves;  ///< field -> exact field on a fine line
-  std::optional<PlateFields> plate;           ///< of a plate with damage
-  std::vector<VtuPiece> files;                ///< all fields of a plate, filled only where they are asked for
+  std::optional<PlateFields> plate = {};      ///< of a plate with damage
+  std::vector<VtuPiece> files = {};           ///< all fields of a plate, filled only where they are asked for
 };
 
 /// One line of a run's energy and momentum ledger, in case units; the fields are those of the solvers' books.

@@ -161,6 +161,7 @@ BOOST_AUTO_TEST_CASE(source_by_hand) {
 BOOST_AUTO_TEST_CASE(strain_is_clipped_in_the_source_and_density_capped) {
   Evolution evolution = paper();
   evolution.diffusion->source = Source::everywhere;
+  evolution.diffusion->saturates = false;
   for (const bool clipped : {true, false}) {
     evolution.diffusion->clip_strain = clipped;
     DamageEvolution e(evolution, one_cell);
@@ -172,6 +173,21 @@ BOOST_AUTO_TEST_CASE(strain_is_clipped_in_the_source_and_density_capped) {
   DamageEvolution e(evolution, one_cell);
   e.advance(uniform(one_cell, 0.02), 1e-6);
   BOOST_TEST(one(e) == 3.0);
+}
+
+BOOST_AUTO_TEST_CASE(the_source_fills_up_to_the_cap_and_no_further) {
+  Evolution evolution = paper();
+  evolution.diffusion->source = Source::everywhere;
+  DamageEvolution e(evolution, one_cell);
+  for (int step = 1; step <= 9; ++step) {
+    e.advance(uniform(one_cell, 0.02), 1e-6);  // 0.1 a step while there is room
+    BOOST_TEST(e.concentration()[0] == std::min(0.1 * step, 0.5625) / 0.01, tt::tolerance(1e-12));
+    BOOST_TEST(e.fed() == e.total(), tt::tolerance(1e-12));
+  }
+  evolution.cap = std::numeric_limits<double>::infinity();  // nothing to fill up to
+  DamageEvolution uncapped(evolution, one_cell);
+  for (int step = 0; step < 9; ++step) uncapped.advance(uniform(one_cell, 0.02), 1e-6);
+  BOOST_TEST(uncapped.concentration()[0] == 90.0, tt::tolerance(1e-12));
 }
 
 BOOST_AUTO_TEST_CASE(tracked_rate_in_the_source) {

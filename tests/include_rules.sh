@@ -11,11 +11,12 @@ forbid() { # forbid FOLDER OTHERS: no file of FOLDER includes a header of OTHERS
   found=$(grep -nE "#include \"($2)/" "$1"/*.[ch]pp)
   [ -z "$found" ] || { echo "$found"; broken=1; }
 }
-forbid material 'fem|mpm|analytic|cases|reports|tests'
+forbid material 'fem|mpm|diffusion|analytic|cases|reports|tests'
+forbid diffusion 'material|fem|mpm|analytic|cases|reports|tests'
 forbid fem 'mpm|analytic|cases|reports|tests'
 forbid mpm 'fem|analytic|cases|reports|tests'
-forbid analytic 'material|fem|mpm|cases|reports|tests'
-forbid reports 'material|fem|mpm|analytic|cases|tests'
+forbid analytic 'material|diffusion|fem|mpm|cases|reports|tests'
+forbid reports 'material|diffusion|fem|mpm|analytic|cases|tests'
 forbid cases 'tests'
 echo "$looked files"
 exit "$broken"

@@ -1,0 +1,778 @@
+// Case files of plates: what is read, and what is said of each mistake.
+#include <boost/test/unit_test.hpp>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "cases/case_file.hpp"
+#include "cases/leaf.hpp"
+#include "cases/plate_build.hpp"
+
+using namespace diptych;
+using namespace diptych::cases;
+namespace tt = boost::test_tools;
+
+namespace {
+
+/// Damage and diffusion: every table, and every key of those that may stand together.
+const std::string whole = R"toml(schema = 1
+id = "plate"
+title = "t"
+claim = "cross-code"
+why = "w"
+units = "SI"
+[plate]
+width = 1.0
+height = 1.5
+cell_aspect = 1.25
+[material]
+model = "tensile-damage"
+E = 50e9
+nu = 0.3
+rho = 2500
+plane = "strain"
+compression = { strength = 1e8, slope = 0.5 }
+K_IC = 2e6
+k = 4e22
+m = 6.5
+beta = 0.5
+residual_stiffness = 0.01
+volumetric = "trace"
+[parameters]
+P = 7e8
+[damage]
+critical_strain = 0.003
+shows = "everywhere"
+capped = false
+rate = "reference"
+reference_rate = 200
+[diffusion]
+T_d = 0.02
+lambda1 = 400
+lambda2 = 0.03
+rupture_strain = 0.04
+source = "zone"
+radius = 0.2
+per_crack_volume = false
+saturates = false
+clip_strain = false
+scheme = "rkl2"
+reading = "radial"
+drift = 0.1
+[supports]
+left = "roller"
+right = "free"
+bottom = "driven"
+top = "platen"
+velocity = ["0", "-0.1*t"]
+[[load]]
+at = "top"
+history = "ramp"
+traction = "P/2"
+rise = { value = 50e-6, unit = "s" }
+[[load]]
+at = "right"
+direction = "shear"
+history = "expression"
+traction = "P*sin(t)"
+[[load]]
+at = "right"
+direction = "normal"
+history = "impulse"
+traction = -3
+start = { value = 1e-5, unit = "s" }
+duration = { value = 2e-5, unit = "s" }
+[body_force]
+acceleration = ["0", "-9.81*t"]
+[initial]
+velocity = ["0.1*x", "y"]
+displacement = ["0", "1e-9*x*y"]
+[model]
+displacements = "infinitesimal"
+pic = 0.25
+features = ["pic", "damage", "diffusion", "compression-plasticity", "platen", "body-force"]
+[[variant]]
+id = "tracked"
+says = "the largest rate met"
+set = { "damage.rate" = "tracked", "damage.rate_floor" = 3 }
+without = ["damage.reference_rate"]
+[exact]
+solution = "expressions"
+displacement = ["x*t", "y*t"]
+velocity = ["x", "y"]
+stress = ["E*t", "nu*E*t", "0"]
+concentration = "x + y + t"
+core = 0.05
+[[axes]]
+method = ["fem", "mpm-musl"]
+cells = [10, 20, 40, 80]
+courant = [0.5]
+particles = [2, [0.5]]
+parameters = { P = [6e8, 7e8] }
+variant = ["", "tracked"]
+[sample]
+times = { unit = "s", at = [1e-4, 2e-4] }
+probes = [
+  { id = "r", reads = "radius", level = 0.05, angle = 45 },
+  { id = "a", reads = "area", level = 0.01 },
+  { id = "l", reads = "largest" },
+  { id = "t", reads = "total" },
+  { id = "c", reads = "concentration", at = [0.5, 1.5] },
+  { id = "s", reads = "stress-xy", at = [1.0, 0] },
+  { id = "b", reads = "acoustic-ratio" },
+]
+[run]
+ledger = true
+[[gate]]
+id = "balance"
+kind = "invariant"
+quantity = "concentration.balance"
+where = { variant = "tracked", parameters = { P = 7e8 } }
+max = 1e-12
+reason = "round-off"
+[[gate]]
+id = "radius"
+kind = "agreement"
+quantity = "probe.r"
+where = { particles = 2, variant = "", parameters = { P = 7e8 } }
+max = 1.0
+judged = [40, 80]
+shrinks = false
+times = [1e-4]
+reason = "judgement"
+[[gate]]
+id = "contour"
+kind = "agreement"
+quantity = "contour.distance"
+where = { particles = 2, variant = "", parameters = { P = 7e8 } }
+max = 1.5
+level = 0.06
+judged = [80]
+reason = "judgement"
+[[gate]]
+id = "size"
+kind = "exact"
+quantity = "probe.t"
+expect = 3
+max = 0.5
+reason = "r"
+[[figure]]
+id = "fig13"
+kind = "contours"
+field = "damage"
+levels = [0.01, 0.05]
+times = [2e-4]
+cells = 10
+particles = 2
+parameters = { P = 7e8 }
+range = [0, 1]
+[[figure]]
+id = "fig12"
+kind = "problem"
+cells = 10
+parameters = { P = 7e8 }
+[[figure]]
+id = "swept"
+kind = "sweep"
+over = "P"
+probe = "r"
+variant = "tracked"
+cells = 10
+)toml";
+
+/// An elastic plate with a mode of its own.
+const std::string elastic_mode = R"toml(schema = 1
+id = "mode"
+title = "t"
+claim = "code-verification"
+why = "w"
+units = "SI"
+[plate]
+width = 2.0
+height = 2.0
+[material]
+model = "elastic"
+E = 1e4
+nu = 0.25
+rho = 4
+plane = "stress"
+[supports]
+left = "free"
+right = "free"
+bottom = "free"
+top = "free"
+[model]
+features = ["elastic"]
+[exact]
+solution = "lame-mode"
+mode = 2
+amplitude = -1e-3
+start = "moving"
+[axes]
+method = ["fem", "mpm-usf", "mpm-usl", "mpm-musl"]
+cells = [8, 16, 32, 64]
+courant = [0.5]
+[sample]
+times = { unit = "s", at = [0.01] }
+[[gate]]
+id = "constant"
+kind = "constant"
+quantity = "displacement.L2"
+predict = "mode"
+ratio = [0.98, 1.02]
+reason = "r"
+[[gate]]
+id = "order"
+kind = "order"
+quantity = "stress.L1"
+expect = 1
+band = [0.9, 1.1]
+levels_min = 3
+reason = "r"
+[[gate]]
+id = "limit"
+kind = "limit"
+quantity = "critical_courant"
+predict = "stability-limit"
+ratio = [0.99, 1.01]
+reason = "r"
+)toml";
+
+/// Diffusion without a material.
+const std::string pure = R"toml(schema = 1
+id = "diffusion"
+title = "t"
+claim = "code-verification"
+why = "w"
+units = "SI"
+[plate]
+width = 2.0
+height = 1.0
+[diffusion]
+diffusivity = "d*(1 + x*y)"
+rate = "x*y*t"
+corner_rate = -0.5
+scheme = "crank-nicolson"
+reading = "radial"
+[parameters]
+d = 0.5
+[initial]
+concentration = "1 + cos(pi*x/Lx)*cos(pi*y/Ly)"
+[model]
+features = ["diffusion"]
+[[variant]]
+id = "euler"
+says = "backward"
+set = { "diffusion.scheme" = "backward-euler" }
+[exact]
+solution = "corner-source"
+core = 0.1
+[axes]
+method = ["diffusion"]
+cells = [10]
+courant = [0.25, 0.5, 1, 2]
+[sample]
+times = { unit = "s", at = [0.01] }
+probes = [{ id = "p", reads = "concentration", at = [1, 1] }, { id = "t", reads = "total" }]
+[[gate]]
+id = "order"
+kind = "order"
+quantity = "concentration.L2"
+over = "courant"
+expect = 2.0
+band = [1.9, 2.1]
+reason = "r"
+[[gate]]
+id = "balance"
+kind = "invariant"
+quantity = "concentration.balance"
+max = 1e-12
+reason = "r"
+)toml";
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  BOOST_REQUIRE_MESSAGE(at != std::string::npos, "the test speaks of '" + from + "', which the case lacks");
+  return text.replace(at, from.size(), to);
+}
+
+std::string message(const std::string& text) {
+  try {
+    parse_case(text, "plate.toml");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::vector<std::string> lines(const std::string& text) {
+  std::vector<std::string> all;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) all.push_back(line);
+  return all;
+}
+
+std::size_t line_of(const std::string& text, const std::string& part) {
+  const std::size_t at = text.find(part);
+  BOOST_REQUIRE_MESSAGE(at != std::string::npos, "no line holds '" + part + "'");
+  return 1 + static_cast<std::size_t>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+}
+
+/// The same without a variant and without what speaks of one: for mistakes that would be found in the variant too.
+std::string alone() {
+  std::string text = replaced(whole, whole.substr(whole.find("[[variant]]"), whole.find("[exact]") - whole.find("[[variant]]")), "");
+  text = replaced(text, "variant = [\"\", \"tracked\"]\n", "");
+  text = replaced(text, "variant = \"tracked\", ", "");
+  text = replaced(text, "variant = \"\", ", "");
+  text = replaced(text, "variant = \"\", ", "");
+  return text.substr(0, text.find("[[figure]]\nid = \"swept\""));
+}
+
+/// The one and only message stands at the line that holds `at` and holds all the parts.
+void expect_at(const std::string& text, const std::string& at, const std::vector<std::string>& parts) {
+  const std::string all = message(text), place = "plate.toml:" + std::to_string(line_of(text, at)) + ':';
+  BOOST_TEST(lines(all).size() == 1u, "wanted one line about '" << at << "', have\n" << all);
+  BOOST_TEST(all.rfind(place, 0) == 0, "wanted " << place << ", have\n" << all);
+  for (const std::string& part : parts)
+    BOOST_TEST(all.find(part) != std::string::npos, "wanted '" << part << "' in\n" << all);
+  BOOST_TEST(all.find("allowed") != std::string::npos, "nothing is said of what is allowed:\n" << all);
+}
+
+/// `from` becomes `to`, which is the mistake.
+void wrong(const std::string& text, const std::string& from, const std::string& to,
+           const std::vector<std::string>& parts) {
+  expect_at(replaced(text, from, to), to, parts);
+}
+
+/// Among the messages is one at the line that holds `at`, with all the parts.
+void says(const std::string& text, const std::string& at, const std::vector<std::string>& parts) {
+  const std::string all = message(text), place = "plate.toml:" + std::to_string(line_of(text, at)) + ':';
+  bool found = false;
+  for (const std::string& line : lines(all)) {
+    bool here = line.rfind(place, 0) == 0;
+    for (const std::string& part : parts) here = here && line.find(part) != std::string::npos;
+    found = found || here;
+  }
+  BOOST_TEST(found, "wanted at " << place << " '" << parts.front() << "' and so on, have\n" << all);
+}
+void wrong_here(const std::string& text, const std::string& from, const std::string& to,
+                const std::vector<std::string>& parts) {
+  says(replaced(text, from, to), to, parts);
+}
+
+/// `from` becomes `to`, and the file is as good as before.
+Case good(const std::string& text, const std::string& from, const std::string& to) {
+  const std::string changed = replaced(text, from, to);
+  BOOST_REQUIRE_EQUAL(message(changed), "");
+  return parse_case(changed, "plate.toml");
+}
+
+/// Without the keys that only the lines of `text` which hold one of `parts` give.
+std::string without(const std::string& text, const std::vector<std::string>& parts) {
+  std::string out;
+  for (const std::string& line : lines(text)) {
+    bool kept = true;
+    for (const std::string& part : parts) kept = kept && line.find(part) == std::string::npos;
+    if (kept) out += line + '\n';
+  }
+  return out;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(plate_file)
+
+// ---- what is read ---------------------------------------------------------------------------------------------------
+
+BOOST_AUTO_TEST_CASE(every_key_of_a_damaging_plate_is_read) {
+  BOOST_REQUIRE_EQUAL(message(whole), "");
+  const Case c = parse_case(whole, "plate.toml");
+  BOOST_REQUIRE(c.plate.has_value());
+  const PlateSpec& plate = *c.plate;
+  BOOST_TEST((plate.width == 1.0 && plate.height == 1.5 && plate.cell_aspect == 1.25));
+  const auto& law = std::get<material::TensileDamage>(plate.material.value());
+  BOOST_TEST((law.elastic.youngs_modulus == 50e9 && law.elastic.poissons_ratio == 0.3 && law.elastic.density == 2500));
+  BOOST_TEST((law.elastic.plane == material::Plane::strain));
+  BOOST_TEST((law.fracture_toughness == 2e6 && law.flaw_density == 4e22 && law.exponent == 6.5 && law.beta == 0.5));
+  BOOST_TEST((law.residual_stiffness == 0.01 && law.trace));
+  BOOST_REQUIRE(plate.compression.has_value());
+  BOOST_TEST((plate.compression->strength == 1e8 && plate.compression->slope == 0.5));
+
+  BOOST_REQUIRE(plate.evolution.has_value());
+  const diffusion::Evolution& evolution = *plate.evolution;
+  BOOST_TEST((evolution.critical_strain == 0.003 && evolution.damage_everywhere));
+  BOOST_TEST(evolution.cap == std::numeric_limits<double>::infinity());
+  BOOST_TEST((evolution.rate == diffusion::Rate::reference && evolution.reference_rate == 200));
+  BOOST_TEST(evolution.crack_coefficient == law.crack_coefficient());  // eq. 23a, of this material
+  BOOST_TEST(evolution.exponent == 6.5);
+  BOOST_REQUIRE(evolution.diffusion.has_value());
+  const diffusion::Diffusion& d = *evolution.diffusion;
+  BOOST_TEST((d.characteristic_time == 0.02 && d.mobility == 400 && d.crack_volume == 0.03));
+  BOOST_TEST((d.rupture_strain == 0.04 && d.source == diffusion::Source::zone && d.radius == 0.2));
+  BOOST_TEST((!d.per_crack_volume && !d.saturates && !d.clip_strain));
+  BOOST_TEST((d.scheme == diffusion::Scheme::rkl2 && d.reading == diffusion::Reading::radial && d.drift == 0.1));
+
+  using Support = Edge::Support;
+  BOOST_TEST((plate.supports == std::array{Support::roller, Support::free, Support::driven, Support::platen}));
+  BOOST_TEST((plate.drive == Pair{"0", "-0.1*t"}));
+  BOOST_REQUIRE_EQUAL(plate.loads.size(), 3u);
+  const SideLoad &top = plate.loads[0], &shear = plate.loads[1], &normal = plate.loads[2];
+  BOOST_TEST((top.side == Side::top && !top.shear && top.history == "ramp" && top.traction == "P/2"));
+  BOOST_TEST((top.rise == 50e-6 && top.start == 0 && top.duration == 0));
+  BOOST_TEST((shear.side == Side::right && shear.shear && shear.history == "expression"));
+  BOOST_TEST(shear.traction == "P*sin(t)");
+  BOOST_TEST((normal.side == Side::right && !normal.shear && normal.history == "impulse" && normal.traction == "-3"));
+  BOOST_TEST((normal.start == 1e-5 && normal.duration == 2e-5));
+  BOOST_TEST((plate.body_force == Pair{"0", "-9.81*t"} && plate.initial_velocity == Pair{"0.1*x", "y"}));
+  BOOST_TEST((plate.initial_displacement == Pair{"0", "1e-9*x*y"}));
+
+  BOOST_TEST((!c.convected && plate.pic == 0.25));
+  BOOST_TEST((c.features == std::vector<std::string>{"body-force", "compression-plasticity", "damage", "diffusion",
+                                                     "pic", "platen"}));
+  BOOST_TEST(plate.exact.solution == "expressions");
+  BOOST_TEST((plate.exact.displacement == Pair{"x*t", "y*t"} && plate.exact.velocity == Pair{"x", "y"}));
+  BOOST_TEST((plate.exact.stress == Triple{"E*t", "nu*E*t", "0"} && plate.exact.concentration == "x + y + t"));
+  BOOST_TEST(plate.exact.core == 0.05);
+  BOOST_TEST((c.parameters == Parameters{{"P", 7e8}}));
+
+  BOOST_REQUIRE_EQUAL(c.axes.size(), 1u);
+  BOOST_TEST((c.axes[0].method == std::vector<std::string>{"fem", "mpm-musl"}));
+  BOOST_TEST((c.axes[0].variant == std::vector<std::string>{"", "tracked"}));
+  BOOST_TEST((c.axes[0].particles == std::vector<std::vector<double>>{{0.25, 0.75}, {0.5}}));
+  BOOST_TEST((c.time_unit == "s" && c.times == std::vector<double>{1e-4, 2e-4} && c.ledger));
+  BOOST_REQUIRE_EQUAL(c.plate_probes.size(), 7u);
+  BOOST_TEST((c.plate_probes[0].id == "r" && c.plate_probes[0].reads == "radius"));
+  BOOST_TEST((c.plate_probes[0].level == 0.05 && c.plate_probes[0].angle == 45));
+  BOOST_TEST((c.plate_probes[1].reads == "area" && c.plate_probes[1].level == 0.01));
+  BOOST_TEST((c.plate_probes[4].reads == "concentration" && c.plate_probes[4].x == 0.5 && c.plate_probes[4].y == 1.5));
+  BOOST_TEST((c.plate_probes[5].reads == "stress-xy" && c.plate_probes[5].x == 1 && c.plate_probes[5].y == 0));
+
+  BOOST_REQUIRE_EQUAL(c.gates.size(), 4u);
+  BOOST_TEST((c.gates[0].where.variant == std::vector<std::string>{"tracked"}));
+  const GateSpec& radius = c.gates[1];
+  BOOST_TEST((radius.kind == "agreement" && radius.quantity == "probe.r" && radius.max == 1.0 && !radius.shrinks));
+  BOOST_TEST((radius.judged == std::vector<int>{40, 80} && radius.times == std::vector<double>{1e-4}));
+  BOOST_TEST((radius.where.variant == std::vector<std::string>{""}));
+  BOOST_TEST((c.gates[2].level == 0.06 && c.gates[2].shrinks));
+  BOOST_TEST((c.gates[3].expect == 3.0 && c.gates[3].max == 0.5));
+  BOOST_REQUIRE_EQUAL(c.figures.size(), 3u);
+  BOOST_TEST((c.figures[0].kind == "contours" && c.figures[0].field == "damage"));
+  BOOST_TEST((c.figures[0].levels == std::vector<double>{0.01, 0.05} && c.figures[0].cells == 10));
+  BOOST_TEST(c.figures[1].kind == "problem");
+  BOOST_TEST((c.figures[2].over == "P" && c.figures[2].probe == "r" && c.figures[2].variant == "tracked"));
+}
+
+BOOST_AUTO_TEST_CASE(every_key_of_a_mode_and_of_diffusion_alone_is_read) {
+  BOOST_REQUIRE_EQUAL(message(elastic_mode), "");
+  const Case mode = parse_case(elastic_mode, "plate.toml");
+  const auto& elastic = std::get<material::PlaneElastic>(mode.plate->material.value());
+  BOOST_TEST((elastic.youngs_modulus == 1e4 && elastic.poissons_ratio == 0.25 && elastic.density == 4));
+  BOOST_TEST((elastic.plane == material::Plane::stress));
+  const PlateExact& exact = mode.plate->exact;
+  BOOST_TEST((exact.solution == "lame-mode" && exact.mode == 2 && exact.amplitude == -1e-3 && !exact.from_rest));
+  BOOST_TEST((mode.gates[1].levels_min == 3 && !mode.gates[1].over_time_step));
+
+  BOOST_REQUIRE_EQUAL(message(pure), "");
+  const Case c = parse_case(pure, "plate.toml");
+  BOOST_TEST((!c.plate->material && !c.plate->evolution && c.plate->diffusion));
+  const PureDiffusion& d = *c.plate->diffusion;
+  BOOST_TEST((d.diffusivity == "d*(1 + x*y)" && d.rate == "x*y*t" && d.corner_rate == -0.5));
+  BOOST_TEST((d.scheme == diffusion::Scheme::crank_nicolson && d.reading == diffusion::Reading::radial));
+  BOOST_TEST(c.plate->initial_concentration == "1 + cos(pi*x/Lx)*cos(pi*y/Ly)");
+  BOOST_TEST((c.plate->exact.solution == "corner-source" && c.plate->exact.core == 0.1));
+  BOOST_TEST((c.variants[0].plate.diffusion->scheme == diffusion::Scheme::backward_euler));
+  BOOST_TEST(c.gates[0].over_time_step);
+  BOOST_TEST((c.plate_probes[0].x == 1 && c.plate_probes[0].y == 1 && c.plate_probes[1].reads == "total"));
+}
+
+BOOST_AUTO_TEST_CASE(what_is_left_out_is_as_said) {
+  const std::vector<std::string> optional{
+      "cell_aspect", "compression =", "beta",      "residual_stiffness", "volumetric", "shows =",       "capped",
+      "per_crack",   "saturates",   "clip_",     "scheme",             "reading",    "drift",         "pic = ",
+      "displacements", "core",      "ledger",    "shrinks",            "particles = [2"};
+  std::string text = without(whole, optional);
+  text = replaced(text, R"("pic", "damage", "diffusion", "compression-plasticity")", R"("damage", "diffusion")");
+  BOOST_REQUIRE_EQUAL(message(text), "");
+  const Case c = parse_case(text, "plate.toml");
+  const auto& law = std::get<material::TensileDamage>(c.plate->material.value());
+  BOOST_TEST((c.plate->cell_aspect == 1 && !c.plate->compression && c.plate->pic == 0 && !c.convected && c.ledger));
+  BOOST_TEST((law.beta == 1 && law.residual_stiffness == 1e-3 && !law.trace));
+  const diffusion::Evolution& evolution = *c.plate->evolution;
+  BOOST_TEST((!evolution.damage_everywhere && evolution.cap == 9.0 / 16));
+  BOOST_TEST((evolution.diffusion->per_crack_volume && evolution.diffusion->saturates));
+  BOOST_TEST((evolution.diffusion->clip_strain && evolution.diffusion->drift == 0));
+  BOOST_TEST((evolution.diffusion->scheme == diffusion::Scheme::sub_cycled));
+  BOOST_TEST((evolution.diffusion->reading == diffusion::Reading::isotropic));
+  BOOST_TEST((c.plate->exact.core == 0 && c.gates[1].shrinks));
+  BOOST_TEST((c.axes[0].particles == std::vector<std::vector<double>>{{0.25, 0.75}}));  // 2 × 2 in a cell
+
+  const Case mode = good(elastic_mode, "start = \"moving\"\n", "");
+  BOOST_TEST((mode.plate->exact.from_rest && mode.plate->loads.empty() && mode.plate->drive[0].empty()));
+  BOOST_TEST((mode.axes[0].variant == std::vector<std::string>{""} && mode.variants.empty()));
+  const std::string sourceless = replaced(
+      without(pure, {"rate = ", "scheme = \"crank", "reading", "concentration = \""}), "\"corner-source\"\ncore = 0.1",
+      "\"expressions\"\nconcentration = \"1\"");
+  BOOST_REQUIRE_EQUAL(message(sourceless), "");
+  const Case d = parse_case(sourceless, "plate.toml");
+  BOOST_TEST((d.plate->diffusion->rate.empty() && d.plate->diffusion->corner_rate == 0));
+  BOOST_TEST((d.plate->diffusion->scheme == diffusion::Scheme::forward_euler));
+  BOOST_TEST((d.plate->diffusion->reading == diffusion::Reading::isotropic && d.plate->initial_concentration.empty()));
+}
+
+BOOST_AUTO_TEST_CASE(each_name_stands_for_its_own_value) {
+  using diffusion::Scheme;
+  for (const auto& [name, scheme] : std::vector<std::pair<std::string, Scheme>>{
+           {"forward-euler", Scheme::forward_euler},
+           {"sub-cycled", Scheme::sub_cycled},
+           {"backward-euler", Scheme::backward_euler},
+           {"crank-nicolson", Scheme::crank_nicolson}})
+    BOOST_TEST((good(whole, "\"rkl2\"", '"' + name + '"').plate->evolution->diffusion->scheme == scheme));
+  using diffusion::Source;
+  const auto source = [](const std::string& name) {
+    return good(whole, "\"zone\"\nradius = 0.2", '"' + name + '"').plate->evolution->diffusion->source;
+  };
+  BOOST_TEST((source("node") == Source::node && source("everywhere") == Source::everywhere));
+  BOOST_TEST(good(elastic_mode, "\"lame-mode\"", "\"roller-mode\"").plate->exact.solution == "roller-mode");
+  // Running waves know no square.
+  for (const char* wave : {"p-wave", "s-wave"}) {
+    const std::string strip = replaced(elastic_mode, "height = 2.0", "height = 0.5");
+    BOOST_TEST(good(strip, "lame-mode", wave).plate->exact.solution == wave);
+  }
+  BOOST_TEST(good(elastic_mode, "[model]", "[model]\ndisplacements = \"infinitesimal\"").convected == false);
+  BOOST_TEST(good(elastic_mode, "[model]\nfeatures = [\"elastic\"]",
+                  "[model]\ndisplacements = \"finite\"\nfeatures = [\"convection\", \"elastic\"]")
+                 .convected);
+  const Case tracked = good(whole, "\"reference\"\nreference_rate = 200", "\"tracked\"\nrate_floor = 5");
+  BOOST_TEST((tracked.plate->evolution->rate == diffusion::Rate::tracked));
+  BOOST_TEST(tracked.plate->evolution->rate_floor == 5);
+}
+
+BOOST_AUTO_TEST_CASE(a_constant_diffusivity_may_be_a_number) {
+  const Case c = good(pure, "\"d*(1 + x*y)\"", "0.125");
+  BOOST_TEST(make_diffusion(c).diffusivity(0.3, 0.4) == 0.125);
+}
+
+BOOST_AUTO_TEST_CASE(expressions_know_the_plate) {
+  const auto names = expression_constants(parse_case(elastic_mode, "plate.toml"));
+  BOOST_TEST((names.at("Lx") == 2 && names.at("Ly") == 2 && names.at("E") == 1e4 && names.at("nu") == 0.25));
+  BOOST_TEST((names.at("rho") == 4 && names.at("c") == 50));
+  BOOST_TEST(names.at("c_s") == std::sqrt(4000.0 / 4), tt::tolerance(1e-15));         // G = E/2.5
+  BOOST_TEST(names.at("c_d") == std::sqrt(1e4 / 0.9375 / 4), tt::tolerance(1e-15));   // plane stress: E/(1 − ν²)
+  const auto bare = expression_constants(parse_case(pure, "plate.toml"));
+  BOOST_TEST((bare.at("Lx") == 2 && bare.at("Ly") == 1 && bare.at("d") == 0.5));
+  BOOST_TEST((!bare.contains("E") && !bare.contains("c_d")));
+}
+
+// ---- mistakes -------------------------------------------------------------------------------------------------------
+
+BOOST_AUTO_TEST_CASE(an_unknown_key_names_its_neighbour) {
+  wrong(alone(), "cell_aspect = 1.25", "cell_aspct = 1.25", {"plate.cell_aspct", "1.25", "\"cell_aspect\""});
+  wrong(alone(), "beta = 0.5", "beeta = 0.5", {"material.beeta", "\"beta\""});
+  wrong(alone(), "capped = false", "caped = false", {"damage.caped", "\"capped\""});
+  wrong(alone(), "saturates = false", "saturate = false", {"diffusion.saturate", "\"saturates\""});
+  wrong(pure, "corner_rate = -0.5", "corner_rates = -0.5\ncorner_rate = -0.5", {"diffusion.corner_rates", "\"corner_rate\""});
+  wrong(alone(), "acceleration = [", "accelerations = [", {"body_force.accelerations", "\"acceleration\""});
+  wrong(alone(), "slope = 0.5 }", "slope = 0.5, slop = 1 }", {"material.compression.slop", "\"slope\""});
+  wrong_here(alone(), "[body_force]", "[bodyforce]", {"bodyforce", "\"body_force\""});
+  wrong(alone(), "direction = \"normal\"", "directon = \"normal\"", {"load 3: directon", "\"direction\""});
+  wrong(alone(), "shrinks = false", "shrink = false", {"gate \"radius\": shrink", "\"shrinks\""});
+  // What bars have, plates have not.
+  wrong(elastic_mode, "[exact]", "[contact]\nfem = \"bonded\"\n[exact]", {"contact", "unknown key"});
+  wrong(elastic_mode, "[exact]", "[viscosity]\nform = \"york\"\n[exact]", {"viscosity", "unknown key"});
+}
+
+BOOST_AUTO_TEST_CASE(numbers_out_of_their_range_are_refused) {
+  wrong_here(alone(), "width = 1.0", "width = 0", {"plate.width", "found 0", "> 0"});
+  wrong_here(alone(), "height = 1.5", "height = \"1.5\"", {"plate.height", "found \"1.5\"", "> 0"});
+  wrong(alone(), "cell_aspect = 1.25", "cell_aspect = inf", {"plate.cell_aspect", "found inf", "finite"});
+  wrong(alone(), "nu = 0.3", "nu = 0.5", {"material.nu", "found 0.5", "-1 < nu < 0.5"});
+  wrong(alone(), "nu = 0.3", "nu = -1", {"material.nu", "found -1", "-1 < nu < 0.5"});
+  wrong(alone(), "nu = 0.3", "nu = nan", {"material.nu", "found nan"});
+  wrong(alone(), "rho = 2500", "rho = -2500", {"material.rho", "found -2500", "> 0"});
+  wrong(alone(), "strength = 1e8", "strength = -1e8", {"material.compression.strength", "-1", ">= 0"});
+  wrong(alone(), "slope = 0.5", "slope = -0.5", {"material.compression.slope", "-0.5", ">= 0"});
+  wrong(alone(), "K_IC = 2e6", "K_IC = 0", {"material.K_IC", "found 0", "> 0"});
+  wrong(alone(), "m = 6.5", "m = 0", {"material.m", "> 0"});
+  wrong(alone(), "beta = 0.5", "beta = -0.5", {"material.beta", ">= 0"});
+  wrong(alone(), "residual_stiffness = 0.01", "residual_stiffness = 0", {"material.residual_stiffness", "> 0"});
+  wrong(alone(), "critical_strain = 0.003", "critical_strain = 0", {"damage.critical_strain", "> 0"});
+  wrong(alone(), "reference_rate = 200", "reference_rate = 0", {"damage.reference_rate", "> 0"});
+  wrong(alone(), "T_d = 0.02", "T_d = 0", {"diffusion.T_d", "> 0"});
+  wrong(alone(), "lambda1 = 400", "lambda1 = -1", {"diffusion.lambda1", ">= 0"});
+  wrong(alone(), "lambda2 = 0.03", "lambda2 = 0", {"diffusion.lambda2", "> 0"});
+  wrong(alone(), "rupture_strain = 0.04", "rupture_strain = 0", {"diffusion.rupture_strain", "> 0"});
+  wrong(alone(), "radius = 0.2", "radius = 0", {"diffusion.radius", "> 0"});
+  wrong(alone(), "drift = 0.1", "drift = -0.1", {"diffusion.drift", ">= 0"});
+  wrong(alone(), "saturates = false", "saturates = 0", {"diffusion.saturates", "true or false"});
+  wrong(alone(), "pic = 0.25", "pic = 1.25", {"model.pic", "found 1.25", "0 (FLIP) to 1 (PIC)"});
+  wrong(alone(), "core = 0.05", "core = 0", {"exact.core", "> 0"});
+  wrong(elastic_mode, "mode = 2", "mode = 0", {"exact.mode", "1 to 1000"});
+  wrong(elastic_mode, "amplitude = -1e-3", "amplitude = 0", {"exact.amplitude", "other than 0"});
+  wrong(pure, "at = [0.01] }", "at = [0] }", {"sample.times.at", "> 0"});
+  wrong(alone(), "at = [1e-4, 2e-4]", "at = [2e-4, 1e-4]", {"sample.times.at", "ascending"});
+  wrong(alone(), "times = { unit = \"s\"", "times = { unit = \"L/c\"", {"sample.times.unit", "\"s\""});
+}
+
+BOOST_AUTO_TEST_CASE(names_that_are_not_known_are_refused_with_the_nearest) {
+  wrong_here(alone(), "model = \"tensile-damage\"", "model = \"tensile-damaged\"", {"material.model", "\"tensile-damage\"?"});
+  wrong(alone(), "plane = \"strain\"", "plane = \"strains\"", {"material.plane", "\"strain\"?"});
+  wrong(alone(), "volumetric = \"trace\"", "volumetric = \"tr\"", {"material.volumetric", "\"mean\", \"trace\""});
+  wrong(alone(), "shows = \"everywhere\"", "shows = \"everwhere\"", {"damage.shows", "\"everywhere\"?"});
+  wrong(alone(), "source = \"zone\"", "source = \"zoned\"", {"diffusion.source", "\"zone\"?"});
+  wrong(alone(), "scheme = \"rkl2\"", "scheme = \"rkl\"", {"diffusion.scheme", "\"rkl2\"?"});
+  wrong(alone(), "reading = \"radial\"", "reading = \"radian\"", {"diffusion.reading", "\"radial\"?"});
+  wrong_here(alone(), "direction = \"shear\"", "direction = \"sheer\"", {"load 2: direction", "\"shear\"?"});
+  wrong(alone(), "history = \"ramp\"", "history = \"rampp\"", {"load 1: history", "\"ramp\"?"});
+  wrong(elastic_mode, "start = \"moving\"", "start = \"move\"", {"exact.start", "\"displaced\", \"moving\""});
+  wrong(elastic_mode, "solution = \"lame-mode\"", "solution = \"lamé-mode\"", {"exact.solution", "\"lame-mode\""});
+  wrong(elastic_mode, "solution = \"lame-mode\"\nmode = 2\namplitude = -1e-3\nstart = \"moving\"",
+        "solution = \"corner-source\"", {"exact.solution", "\"corner-source\"", "\"roller-mode\""});
+  wrong_here(pure, "solution = \"corner-source\"", "solution = \"lame-mode\"", {"exact.solution", "\"corner-source\""});
+  wrong(elastic_mode, "\"mpm-usf\"", "\"diffusion\"", {"axes.method", "\"mpm-usf\""});
+  wrong(pure, "method = [\"diffusion\"]", "method = [\"fem\"]", {"axes.method", "found \"fem\"", "\"diffusion\""});
+  wrong_here(whole, "variant = [\"\", \"tracked\"]", "variant = [\"\", \"trakced\"]", {"axes 1: variant", "\"tracked\"?"});
+  wrong(whole, "where = { variant = \"tracked\"", "where = { variant = \"track\"", {"where.variant", "\"tracked\"?"});
+}
+
+BOOST_AUTO_TEST_CASE(what_is_missing_is_said) {
+  says(without(alone(), {"width"}), "[plate]", {"plate.width", "missing", "> 0"});
+  expect_at(without(elastic_mode, {"plane = "}), "[material]", {"material.plane", "missing", "\"strain\", \"stress\""});
+  expect_at(without(alone(), {"K_IC"}), "[material]", {"material.K_IC", "missing"});
+  expect_at(without(alone(), {"T_d"}), "[diffusion]", {"diffusion.T_d", "missing"});
+  expect_at(without(alone(), {"rise = {"}), "[[load]]", {"load 1: rise", "missing", "unit = \"s\""});
+  expect_at(without(elastic_mode, {"bottom = "}), "[supports]", {"supports.bottom", "missing", "\"platen\""});
+  says(replaced(elastic_mode, "features = [\"elastic\"]\n", ""), "[model]", {"model.features", "missing"});
+  // Tables, all of them at the top of the file.
+  expect_at(replaced(without(pure, {"diffusivity", "rate = ", "scheme = \"crank", "reading"}), "[diffusion]\n", ""),
+            "schema", {"diffusion", "missing", "[diffusion]"});
+  expect_at(replaced(without(elastic_mode, {"\"free\""}), "[supports]\n", ""), "schema", {"supports", "missing"});
+  expect_at(without(pure, {"[model]", "features"}), "schema", {"model", "missing", "[model]"});
+}
+
+BOOST_AUTO_TEST_CASE(sides_have_names) {
+  const std::string text = replaced(elastic_mode, "bottom = \"free\"", "botom = \"free\"");
+  const std::string said = message(text);
+  BOOST_TEST(lines(said).size() == 2u, said);  // one side is missing, the other unknown
+  BOOST_TEST(said.find("supports.bottom: missing") != std::string::npos, said);
+  BOOST_TEST(said.find("supports.botom: found an unknown key (= \"free\")") != std::string::npos, said);
+  BOOST_TEST(said.find("did you mean \"bottom\"?") != std::string::npos, said);
+  wrong(elastic_mode, "top = \"free\"", "top = \"fixd\"", {"supports.top", "found \"fixd\"", "\"fixed\"?"});
+  wrong(alone(), "at = \"top\"", "at = \"topp\"", {"load 1: at", "\"left\", \"right\", \"bottom\", \"top\"", "\"top\"?"});
+}
+
+BOOST_AUTO_TEST_CASE(there_is_one_platen) {
+  expect_at(replaced(alone(), "left = \"roller\"", "left = \"platen\""), "[supports]",
+            {"supports", "two platens", "at most one"});
+}
+
+BOOST_AUTO_TEST_CASE(driven_sides_have_a_velocity_and_others_none) {
+  expect_at(without(alone(), {"velocity = [\"0\", \"-0.1*t\"]"}), "[supports]",
+            {"supports.velocity", "missing", "two expressions of x, y and t"});
+  expect_at(replaced(alone(), "bottom = \"driven\"", "bottom = \"roller\""), "velocity = [\"0\"",
+            {"supports.velocity", "without a driven side"});
+  wrong(alone(), "velocity = [\"0\", \"-0.1*t\"]", "velocity = [\"-0.1*t\"]", {"supports.velocity", "a list of 2"});
+  wrong(alone(), "velocity = [\"0\", \"-0.1*t\"]", "velocity = \"-0.1*t\"", {"supports.velocity", "a list of 2"});
+  wrong(alone(), "velocity = [\"0\", \"-0.1*t\"]", "velocity = [0, \"-0.1*t\"]",
+        {"supports.velocity, entry 1", "found 0", "in quotes"});
+}
+
+BOOST_AUTO_TEST_CASE(loads_act_on_what_is_free_to_move) {
+  const auto load = [](const std::string& at, const std::string& direction) {
+    return "[[load]]\nat = \"" + at + "\"\ndirection = \"" + direction +
+           "\"\nhistory = \"step\"\ntraction = 1\n[body_force]";
+  };
+  const auto refused = [&](const std::string& at, const std::string& direction) {
+    expect_at(replaced(alone(), "[body_force]", load(at, direction)), "at = \"" + at + "\"\ndirection = \"" + direction,
+              {"load 4: at", "a " + direction + " load on the " + at + " side, which is held so", "free to move"});
+  };
+  refused("left", "normal");    // roller
+  refused("bottom", "normal");  // driven
+  refused("bottom", "shear");
+  refused("top", "shear");  // platen
+  BOOST_TEST(good(alone(), "[body_force]", load("left", "shear")).plate->loads.size() == 4u);
+  const std::string fixed = replaced(alone(), "left = \"roller\"", "left = \"fixed\"");
+  expect_at(replaced(fixed, "[body_force]", load("left", "shear")), "at = \"left\"", {"load 4: at", "held so"});
+  expect_at(replaced(alone(), "[body_force]", load("right", "shear")), "at = \"right\"\ndirection = \"shear\"\nhistory = \"step\"",
+            {"load 4: at", "a second load of this kind on the right side", "one of each direction"});
+}
+
+
+BOOST_AUTO_TEST_CASE(keys_that_belong_to_another_choice_are_refused) {
+  const auto doubled = [](const std::string& text, const std::string& after, const std::string& key,
+                          const std::vector<std::string>& parts) {
+    expect_at(replaced(text, after, after + '\n' + key), key, parts);
+  };
+  const std::string plain = alone();
+  doubled(plain, "rise = { value = 50e-6, unit = \"s\" }", "duration = { value = 1, unit = \"s\" }",
+          {"load 1: duration", "history = \"ramp\"", "with history = \"impulse\""});
+  doubled(plain, "traction = \"P*sin(t)\"", "start = { value = 1, unit = \"s\" }",
+          {"load 2: start", "history = \"expression\"", "\"step\", \"ramp\", \"impulse\""});
+  doubled(plain, "traction = -3", "rise = { value = 1, unit = \"s\" }", {"load 3: rise", "history = \"impulse\""});
+  doubled(plain, "reference_rate = 200", "rate_floor = 1", {"damage.rate_floor", "\"reference\"", "\"tracked\""});
+  doubled(elastic_mode, "rho = 4", "K_IC = 1e6", {"material.K_IC", "\"elastic\"", "\"tensile-damage\""});
+  doubled(elastic_mode, "amplitude = -1e-3", "core = 0.1", {"exact.core", "\"lame-mode\"", "\"corner-source\""});
+  doubled(elastic_mode, "amplitude = -1e-3", "velocity = [\"0\", \"0\"]", {"exact.velocity", "\"expressions\""});
+  doubled(plain, "core = 0.05", "mode = 1", {"exact.mode", "\"expressions\"", "\"lame-mode\""});
+  doubled(pure, "core = 0.1", "concentration = \"1\"", {"exact.concentration", "\"corner-source\""});
+  wrong(plain, "source = \"zone\"\nradius", "source = \"node\"\nradius", {}) ;
+}
+
+BOOST_AUTO_TEST_CASE(some_choices_do_not_go_together) {
+  const std::string plain = alone();
+  expect_at(replaced(plain, "plane = \"strain\"", "plane = \"stress\""), "compression = {",
+            {"material.compression", "plane stress", "plane = \"strain\""});
+  wrong(plain, "displacements = \"infinitesimal\"", "displacements = \"finite\"", {}) ;
+}
+
+BOOST_AUTO_TEST_CASE(damage_and_what_drives_it_go_with_its_material) {
+  wrong(elastic_mode, "[supports]",
+        "[damage]\ncritical_strain = 1\nrate = \"tracked\"\n[supports]",
+        {"damage", "beside an elastic material", "material.model = \"tensile-damage\""});
+  const std::string driven =
+      "[diffusion]\nT_d = 1\nlambda1 = 1\nlambda2 = 1\nrupture_strain = 1\nsource = \"node\"\n[supports]";
+  wrong(elastic_mode, "[supports]", driven,
+        {"diffusion", "beside a material without damage", "material.model = \"tensile-damage\" and [damage]"});
+  const std::string plain = alone();
+  const std::size_t from = plain.find("[damage]"), to = plain.find("[diffusion]");
+  says(replaced(plain, plain.substr(from, to - from), ""), "schema", {"damage: missing", "[damage]"});
+}
+
+BOOST_AUTO_TEST_CASE(what_needs_a_material_is_refused_without) {
+  const auto refused = [](const std::string& table, const std::string& keys) {
+    expect_at(replaced(pure, "[model]", table + '\n' + keys + "\n[model]"), table,
+              {"in a scene without [material]", "allowed: with one"});
+  };
+  refused("[supports]", "left = \"free\"\nright = \"free\"\nbottom = \"free\"\ntop = \"free\"");
+  refused("[damage]", "critical_strain = 1");
+  refused("[[load]]", "at = \"top\"");
+  refused("[body_force]", "acceleration = [\"0\", \"1\"]");
+  wrong(pure, "[initial]\n", "[initial]\nvelocity = [\"0\", \"0\"]\n", {}) ;
+}
+
+BOOST_AUTO_TEST_CASE(expressions_must_be_formulas_of_what_is_known_there) {
+  const std::string plain = alone();
+  wrong(plain, "traction = \"P/2\"", "traction = \"P*t\"", {"load 1: traction", "\"t\""});
+  wrong(plain, "traction = \"P*sin(t)\"", "traction = \"P*sin(x)\"", {"load 2: traction", "\"x\""});
+  wrong(plain, "velocity = [\"0.1*x\", \"y\"]", "velocity = [\"0.1*x\", \"y*t\"]", {"initial.velocity, entry 2", "\"t\""});
+  wrong(plain, "velocity = [\"0\", \"-0.1*t\"]", "velocity = [\"z\", \"-0.1*t\"]", {"supports.velocity, entry 1", "\"z\""});
+  wrong(plain, "\"-9.81*t\"", "\"-9.81*tt\"", {"body_force.acceleration, entry 2", "tt"});
+  wrong(plain, "\"x + y + t\"", "\"x + L\"", {"exact.concentration", "\"L\""});  // a bar's
+  wrong(plain, "\"nu*E*t\"", "\"nu*E*\"", {"exact.stress, entry 2"});
+  wrong(plain, "stress = [\"E*t\", \"nu*E*t\", \"0\"]", "stress = [\"E*t\", \"nu*E*t\"]", {"exact.stress", "a list of 3"});
+  wrong(pure, "\"d*(1 + x*y)\"", "\"d*(1 + t)\"", {"diffusion.diffusivity", "\"t\""});
+  wrong(pure, "\"d*(1 + x*y)\"", "\"E*x\"", {"diffusion.diffusivity", "\"E\""});  // without a material
+  wrong(pure, "\"1 + cos(pi*x/Lx)*cos(pi*y/Ly)\"", "\"t\"", {"initial.concentration", "\"t\""});
+  wrong(pure, "d = 0.5", "c_d = 1\nd = 0.5", {"parameters.c_d", "a name that expressions have already"});
+  wrong(pure, "d = 0.5", "y = 1\nd = 0.5", {"parameters.y", "a name that expressions have already"});
+}
+
+BOOST_AUTO_TEST_CASE(expressions_must_be_finite) {
+  const std::string plain = alone();
+  wrong(plain, "\"x + y + t\"", "\"1/(x - Lx)\"",
+        {"exact.concentration", "which is inf at x = 1, y = 0, t = 0", "the corners and the middle"});
+  wrong(plain, "\"x + y + t\"", "\"sqrt(y - Ly)\"", {"exact.concentration", "which is NaN at x = 0, y = 0"});
+  wrong(plain, "\"x + y + t\"", "\"1/(t - 2e-4)\"", {"exact.concentration", "at x = 0, y = 0, t = 0.0002"});
+}
+
+BOOST_AUTO_TEST_SUITE_END()
