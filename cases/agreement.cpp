@@ -80,7 +80,9 @@ Apart of_values(const std::array<Series, 2>& both, const std::function<double(co
   for (std::size_t m = 0; m < 2; ++m) {
     for (const Run* run : both[m]) {
       values[m].push_back(value(*run));
-      if (!std::isfinite(values[m].back())) invalid(run->label() + ": the quantity is not a finite number");
+      if (!std::isfinite(values[m].back()))
+        invalid(run->label() +
+                ": the quantity is not a finite number: the contour does not reach there, or the run has none");
     }
     uncertainty[m] = discretisation_uncertainty(sizes_of(both[m]), values[m]);
   }
@@ -96,7 +98,8 @@ Apart of_contours(const std::array<Series, 2>& both, double time, double level) 
   Apart apart;
   apart.band.assign(both[0].size(), 0);
   for (int angle = 0; angle <= 90; angle += 5) {
-    const auto radii = of_values(both, [&](const Run& run) { return radius_along(crack_density_of(run, time), level, angle); });
+    const auto radii =
+        of_values(both, [&](const Run& run) { return radius_along(crack_density_of(run, time), level, angle); });
     for (std::size_t k = 0; k < apart.band.size(); ++k) apart.band[k] = std::max(apart.band[k], radii.band[k]);
   }
   for (std::size_t k = 0; k < both[0].size(); ++k) {
@@ -128,16 +131,19 @@ void judge(const std::array<Series, 2>& both, const Apart& apart, const GateSpec
   std::vector<double> judged;
   for (std::size_t k = 0; k < both[0].size(); ++k) {
     if (std::find(gate.judged.begin(), gate.judged.end(), both[0][k]->cells) == gate.judged.end()) continue;
-    if (!(apart.band[k] > 0)) invalid(fmt::format("{} cells{}: no uncertainty to compare with", both[0][k]->cells, when));
-    hold(result, {fmt::format("{} cells{}: {:.3g} apart, expected within {:.3g}", both[0][k]->cells, when,
-                              apart.difference[k], apart.band[k]),
-                  apart.difference[k], apart.band[k], -*gate.max, *gate.max, apart.difference[k] / apart.band[k], false});
+    if (!(apart.band[k] > 0))
+      invalid(fmt::format("{} cells{}: no uncertainty to compare with", both[0][k]->cells, when));
+    hold(result,
+         {fmt::format("{} cells{}: {:.3g} apart, expected within {:.3g}", both[0][k]->cells, when, apart.difference[k],
+                      apart.band[k]),
+          apart.difference[k], apart.band[k], -*gate.max, *gate.max, apart.difference[k] / apart.band[k], false});
     judged.push_back(apart.difference[k]);
   }
   if (judged.size() != gate.judged.size())
     invalid(fmt::format("{} of {} meshes to judge were run", judged.size(), gate.judged.size()));
   if (judged.size() < 2 || !gate.shrinks) return;
-  if (!(judged.front() > 1e-12 * apart.band.front())) invalid("the two methods give the same number: one of them twice?");
+  if (!(judged.front() > 1e-12 * apart.band.front()))
+    invalid("the two methods give the same number: one of them twice, or a bound that both have reached?");
   hold(result, {fmt::format("finest / coarsest difference{}", when), judged.back(), judged.front(), -1, 1,
                 judged.back() / judged.front(), false});
 }
@@ -146,8 +152,8 @@ void judge(const std::array<Series, 2>& both, const Apart& apart, const GateSpec
 
 void judge_agreement(const Case& c, const GateSpec& gate, const std::vector<const Run*>& runs, reports::Gate& result) {
   const auto both = both_methods(runs);
-  result.formula = fmt::format("|{} − {}| of {} / √(U² + U²) ≤ {:g}{}", both[0][0]->method,
-                               both[1][0]->method, gate.quantity, *gate.max, gate.shrinks ? ", and it shrinks" : "");
+  result.formula = fmt::format("|{} − {}| of {} / √(U² + U²) ≤ {:g}{}", both[0][0]->method, both[1][0]->method,
+                               gate.quantity, *gate.max, gate.shrinks ? ", and it shrinks" : "");
   if (gate.quantity == "platen.history") {
     judge(both, of_histories(both), gate, "", result);
     return;

@@ -115,8 +115,8 @@ struct Zoom {
 };
 
 struct FigureSpec {
-  std::string id;                 ///< "fig1"
-  std::string title;              ///< empty: the case's
+  std::string id;     ///< "fig1"
+  std::string title;  ///< empty: the case's
   /// "profiles" of a field at some times, or "motion": positions over time. Of a plate "contours" of both methods and
   /// their difference, "problem": the scene itself, "history" of the platen, "sweep" of a probe over
   /// a swept parameter, or "choices": what each variant does.

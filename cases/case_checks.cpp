@@ -157,9 +157,9 @@ Trial trial_of(const Case& c) {
   return trial;
 }
 
-const Names plate_invariants{"energy.drift",     "energy.lost",      "energy.closure",        "momentum.drift",
-                             "bits.repeat",      "bits.threads",     "bits.mirror",           "bits.power-of-two",
-                             "bits.undamaged",   "numbers.largest",  "area.error",            "concentration.balance",
+const Names plate_invariants{"energy.drift",        "energy.lost",        "energy.closure", "momentum.drift",
+                             "bits.repeat",         "bits.threads",       "bits.mirror",    "bits.power-of-two",
+                             "bits.undamaged",      "numbers.largest",    "area.error",     "concentration.balance",
                              "concentration.least", "cross.forward-euler"};
 const Names plate_fields{"displacement", "velocity", "stress", "concentration"};
 
@@ -170,7 +170,7 @@ Names plate_quantities_of(const std::string& kind, const Case& c) {
   if (kind != "agreement")
     for (const std::string& field : plate_fields)
       for (const char* norm : {".L1", ".L2", ".Linf"}) names.push_back(field + norm);
-  if (kind != "constant")
+  if (kind == "exact" || kind == "agreement")
     for (const PlateProbe& probe : c.plate_probes) names.push_back("probe." + probe.id);
   if (kind == "agreement") names.insert(names.end(), {"contour.distance", "platen.history"});
   return names;
@@ -178,9 +178,7 @@ Names plate_quantities_of(const std::string& kind, const Case& c) {
 
 }  // namespace
 
-const Names& methods_of(const Case& c) {
-  return c.plate && !c.plate->material ? diffusion_methods : methods;
-}
+const Names& methods_of(const Case& c) { return c.plate && !c.plate->material ? diffusion_methods : methods; }
 
 Names variants_of(const Case& c) {
   Names names{""};
@@ -351,9 +349,10 @@ void check_expression(const Place& place, const std::string& text, const Names& 
           std::string where;
           for (std::size_t k = 0; k < variables.size(); ++k)
             where += (k > 0 ? ", " : "") + variables[k] + " = " + words(at[k]);
-          place.say(fmt::format("found {}, which is {} at {}; allowed: finite values at {} and t in {{0, sample times}}",
-                                words(text), std::isnan(value) ? "NaN" : words(value), where,
-                                c.plate ? "the corners and the middle" : "x in {0, L/2, L}"));
+          place.say(
+              fmt::format("found {}, which is {} at {}; allowed: finite values at {} and t in {{0, sample times}}",
+                          words(text), std::isnan(value) ? "NaN" : words(value), where,
+                          c.plate ? "the corners and the middle" : "x in {0, L/2, L}"));
           return;
         }
       }
@@ -471,25 +470,64 @@ void check_solution(const Place& place, const Case& c) {
     place.say("found \"bar-wave\" without a load; allowed: at least one [[load]] with a traction other than 0");
 }
 
+/// Two methods, otherwise alike, on the same four meshes or more.
+void check_agreement(Table& t, const GateSpec& gate, const Case& c) {
+  std::map<std::string, std::set<int>> meshes;
+  std::set<std::string> otherwise;
+  for (const Leaf& run : runs_of(gate, c)) {
+    meshes[run.method].insert(run.cells);
+    otherwise.insert("courant = " + words(run.courant) +
+                     (parameters_label(run).empty() ? "" : ", " + parameters_label(run)));
+  }
+  const Place place = t.place("where");
+  if (otherwise.size() > 1)
+    place.say(fmt::format("found runs that differ in more than method and mesh ({}); allowed: one of them, in where",
+                          fmt::join(otherwise, "; ")));
+  if (meshes.size() != 2)
+    place.say(fmt::format("found {} methods; allowed: two, fem and one of MPM", meshes.size()));
+  else if (meshes.begin()->second != std::next(meshes.begin())->second)
+    place.say("found other meshes for each method; allowed: the same");
+  else if (meshes.begin()->second.size() < 4)
+    place.say(fmt::format("found {} meshes; allowed: at least 4, on which the uncertainties are found",
+                          meshes.begin()->second.size()));
+}
+
 /// A quantity of a plate needs what it is about.
 void check_plate_gate(Table& t, const GateSpec& gate, const Case& c) {
   const Place place = t.place("quantity");
   const std::string field = gate.quantity.substr(0, gate.quantity.find('.'));
   const PlateExact& e = c.plate->exact;
   if (contains(plate_fields, field) && !contains(plate_invariants, gate.quantity)) {
-    const bool given = e.solution == "none"            ? false
-                       : e.solution == "expressions"   ? !(field == "stress"         ? e.stress[0]
-                                                           : field == "velocity"     ? e.velocity[0]
-                                                           : field == "displacement" ? e.displacement[0]
-                                                                                     : e.concentration)
-                                                              .empty()
+    const bool given = e.solution == "none"          ? false
+                       : e.solution == "expressions" ? !(field == "stress"         ? e.stress[0]
+                                                         : field == "velocity"     ? e.velocity[0]
+                                                         : field == "displacement" ? e.displacement[0]
+                                                                                   : e.concentration)
+                                                            .empty()
                        : e.solution == "corner-source" ? field == "concentration"
                                                        : field != "concentration";
-    if (!given)
-      place.refuse(words(gate.quantity) + " where [exact] does not give it", "fields that [exact] gives");
+    if (!given) place.refuse(words(gate.quantity) + " where [exact] does not give it", "fields that [exact] gives");
   }
   if (gate.kind == "constant" && !gate.predict.empty() && gate.predict != "mode")
     t.place("predict").refuse(words(gate.predict) + " on a plate", "\"mode\"");
+  if (gate.predict == "mode" && !contains({"lame-mode", "roller-mode", "p-wave"}, e.solution))
+    t.place("predict").refuse("\"mode\" for exact.solution = " + words(e.solution),
+                              "with \"lame-mode\", \"roller-mode\" or \"p-wave\"");
+  const auto needs = [&](const Names& quantities, bool there, const std::string& what) {
+    if (contains(quantities, gate.quantity) && !there)
+      place.refuse(words(gate.quantity) + " without " + what, "with it");
+  };
+  const auto& supports = c.plate->supports;
+  const bool damage = c.plate->evolution.has_value(), spreads = damage && c.plate->evolution->diffusion;
+  needs({"bits.undamaged", "contour.distance"}, damage, "damage");
+  needs({"cross.forward-euler"}, spreads, "damage that diffuses");
+  needs({"concentration.balance", "concentration.least"}, spreads || c.plate->diffusion, "diffusion");
+  needs({"platen.history"}, std::find(supports.begin(), supports.end(), Edge::Support::platen) != supports.end(),
+        "a platen");
+  needs({"area.error", "bits.repeat", "bits.threads", "bits.mirror", "bits.power-of-two", "energy.drift", "energy.lost",
+         "energy.closure", "momentum.drift", "critical_courant"},
+        c.plate->material.has_value(), "a material");
+  if (gate.kind == "agreement" && !c.axes.empty()) check_agreement(t, gate, c);
   const bool of_ledger = gate.quantity.starts_with("energy.") || gate.quantity.starts_with("momentum.");
   if (of_ledger && !c.ledger)
     place.refuse(words(gate.quantity) + " with run.ledger = false", "with the ledger, run.ledger = true");

@@ -194,14 +194,14 @@ void judge_order(const Case& c, const GateSpec& gate, const std::vector<Reading>
     std::sort(group.begin(), group.end(), [&](const Reading& a, const Reading& b) { return size(a) > size(b); });
     check_expectation(c, gate, *group.front().run);
     if (static_cast<int>(group.size()) < gate.levels_min) {
-      throw Stop{Verdict::invalid,
-                 fmt::format("{}: {} {}, at least {} are needed", name, group.size(),
-                                                over_time ? "time steps" : "meshes", gate.levels_min)};
+      throw Stop{Verdict::invalid, fmt::format("{}: {} {}, at least {} are needed", name, group.size(),
+                                               over_time ? "time steps" : "meshes", gate.levels_min)};
     }
     std::vector<double> sizes, errors;
     for (const Reading& r : group) {
       if (!sizes.empty() && !(size(r) < sizes.back()))
-        throw Stop{Verdict::invalid, name + (over_time ? ": two time steps are the same" : ": two meshes are the same")};
+        throw Stop{Verdict::invalid,
+                   name + (over_time ? ": two time steps are the same" : ": two meshes are the same")};
       sizes.push_back(size(r));
       errors.push_back(r.value);
     }
@@ -219,9 +219,9 @@ void judge_order(const Case& c, const GateSpec& gate, const std::vector<Reading>
       throw Stop{Verdict::invalid, fmt::format("{}: the errors lie on no line: slope {:.3f} ± {:.3f}", name, fit.order,
                                                fit.standard_error)};
     }
-    hold(result, {fmt::format("{} ({} {}, ± {:.3f})", name, fit.levels, over_time ? "steps" : "meshes",
-                              fit.standard_error), fit.order,
-                  *gate.expect, low, high, fit.order, false});
+    hold(result,
+         {fmt::format("{} ({} {}, ± {:.3f})", name, fit.levels, over_time ? "steps" : "meshes", fit.standard_error),
+          fit.order, *gate.expect, low, high, fit.order, false});
   }
 }
 

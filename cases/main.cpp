@@ -63,7 +63,8 @@ int main(int argc, char** argv) {
   add_cases(run, true);
   add_out(run);
   run->add_flag("--ledger", options.ledger, "also write every step's energies, work, loss and momentum (CSV)");
-  run->add_flag("--fields", options.fields, "also write plates' fields at the sample times (VTU and PVD, for ParaView)");
+  run->add_flag("--fields", options.fields,
+                "also write plates' fields at the sample times (VTU and PVD, for ParaView)");
   add_threads(run);
   run->callback([&] { status = run_command(options, cancelled); });
 

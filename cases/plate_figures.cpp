@@ -63,9 +63,10 @@ std::vector<std::string> notes_of(const Case& c, const FigureSpec& spec) {
   std::vector<std::string> notes{words_of(*c.plate)};
   if (const auto& evolution = c.plate->evolution; evolution && evolution->diffusion) {
     const diffusion::Diffusion& d = *evolution->diffusion;
-    notes.push_back(fmt::format("Diffusion read as {}; λ1 = {:g} m²/s, λ2 = {:g}, T_d = {:g} s, ε_v1 = {:g}, ε_vf = {:g}",
-                                d.reading == diffusion::Reading::radial ? "∂/∂r (d ∂C/∂r)" : "∇·(d ∇C)", d.mobility,
-                                d.crack_volume, d.characteristic_time, evolution->critical_strain, d.rupture_strain));
+    notes.push_back(
+        fmt::format("Diffusion read as {}; λ1 = {:g} m²/s, λ2 = {:g}, T_d = {:g} s, ε_v1 = {:g}, ε_vf = {:g}",
+                    d.reading == diffusion::Reading::radial ? "∂/∂r (d ∂C/∂r)" : "∇·(d ∇C)", d.mobility, d.crack_volume,
+                    d.characteristic_time, evolution->critical_strain, d.rupture_strain));
   }
   if (!c.paper_figures.empty() && !spec.choices.empty()) notes.push_back("Reconstructed parameters: " + spec.choices);
   return notes;
@@ -146,8 +147,7 @@ reports::PlateFigure contour_figure(const Case& c, const FigureSpec& spec, const
       const NodalMap less = difference(maps[0], maps[1]);
       panel.map = {less.nx, less.ny, less.value, -1, 1, fmt::format("{} of FEM less MPM", symbol), true};
       for (const double value : less.value) apart = std::max(apart, std::abs(value));
-      for (std::size_t m = 0; m < 2; ++m)
-        add_contours(maps[m], spec.levels, kind_of(spec.methods[m]), panel);
+      for (std::size_t m = 0; m < 2; ++m) add_contours(maps[m], spec.levels, kind_of(spec.methods[m]), panel);
       for (auto& one : panel.contours) one.label.clear();
     }
     figure.panels.push_back(std::move(panel));
@@ -189,8 +189,8 @@ reports::ProblemFigure problem_figure(const Case& c, const FigureSpec& spec) {
     drawn.load = "p = " + load_words(load);
     drawn.outward = !load.traction.starts_with("-");
   }
-  if (const auto& evolution = c.plate->evolution; evolution && evolution->diffusion &&
-                                                  evolution->diffusion->source == diffusion::Source::zone) {
+  if (const auto& evolution = c.plate->evolution;
+      evolution && evolution->diffusion && evolution->diffusion->source == diffusion::Source::zone) {
     figure.weak_radius = evolution->diffusion->radius;
     figure.weak_label = fmt::format("weak zone, r = {:g} m", evolution->diffusion->radius);
   }
@@ -231,8 +231,8 @@ reports::Figure history_figure(const Case& c, const FigureSpec& spec, const std:
 
 reports::Figure sweep_figure(const Case& c, const FigureSpec& spec, const std::vector<reports::Run>& runs) {
   const double time = (spec.times.empty() ? c.times : spec.times).back();
-  const auto swept = std::find_if(c.axes.begin(), c.axes.end(),
-                                  [&](const Axes& axes) { return axes.parameters.contains(spec.over); });
+  const auto swept =
+      std::find_if(c.axes.begin(), c.axes.end(), [&](const Axes& axes) { return axes.parameters.contains(spec.over); });
   reports::Figure figure;
   figure.id = spec.id;
   figure.title = title_of(c, spec);
@@ -284,7 +284,8 @@ void add_choices(const Case& c, const FigureSpec& spec, const std::vector<report
   for (const std::string& note : notes_of(c, spec)) page.intro.push_back(note + ".");
   for (const std::string& method : spec.methods) {
     const std::string name = method == "fem" ? "FEM" : "MPM";
-    for (const char* what : {"radius at 45° [m]", "area [m²]"}) page.columns.push_back(fmt::format("{} {}", name, what));
+    for (const char* what : {"radius at 45° [m]", "area [m²]"})
+      page.columns.push_back(fmt::format("{} {}", name, what));
     page.columns.push_back(fmt::format("{} largest {}", name, symbol));
   }
   std::vector<PlateVariant> rows{{"", "Reference", *c.plate}};

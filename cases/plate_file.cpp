@@ -87,8 +87,8 @@ void read_plate_material(Table& t, Case& c) {
   elastic.poissons_ratio = t.must("nu", below(0.5, any_number(), "-1 < nu < 0.5")).value_or(0);
   if (elastic.poissons_ratio <= -1) t.place("nu").refuse(words(elastic.poissons_ratio), "-1 < nu < 0.5");
   elastic.density = t.need("rho", positive());
-  elastic.plane = t.need("plane", one_of({"strain", "stress"})) == "stress" ? material::Plane::stress
-                                                                            : material::Plane::strain;
+  elastic.plane =
+      t.need("plane", one_of({"strain", "stress"})) == "stress" ? material::Plane::stress : material::Plane::strain;
   t.maybe_table("compression", [&](Table& p) {
     plate.compression = material::Compression{p.need("strength", not_negative()), p.need("slope", not_negative())};
     if (elastic.plane == material::Plane::stress)
@@ -163,6 +163,9 @@ void read_diffusion(Table& t, Case& c) {
   d.scheme = read_scheme(t, d.scheme);
   d.reading = read_reading(t);
   d.drift = t.get("drift", not_negative(), d.drift);
+  if (d.drift > 0 && d.scheme == diffusion::Scheme::crank_nicolson)
+    t.place("drift").refuse(words(d.drift) + " with \"crank-nicolson\"",
+                            "0: it does not damp what a stale factorisation gets wrong");
   if (!c.plate->evolution) {
     t.say("found beside a material without damage; allowed: with material.model = \"tensile-damage\" and [damage]");
     return;
@@ -261,7 +264,17 @@ void read_plate_exact(Table& t, Case& c) {
   if (of("velocity", {"expressions"})) exact.velocity = read_components<2>(t, "velocity", xyt, c);
   if (of("stress", {"expressions"})) exact.stress = read_components<3>(t, "stress", xyt, c);
   if (of("concentration", {"expressions"})) exact.concentration = read_formula(t, "concentration", xyt, c);
-  if (of("core", {"corner-source", "expressions"})) exact.core = t.get("core", positive(), 0);
+  if (of("core", {"corner-source", "expressions"}))
+    exact.core = exact.solution == "corner-source" ? t.need("core", positive()) : t.get("core", positive(), 0);
+  using Support = Edge::Support;
+  const auto all_are = [&](Support support) {
+    const auto& supports = c.plate->supports;
+    return std::all_of(supports.begin(), supports.end(), [&](Support s) { return s == support; });
+  };
+  if (exact.solution == "lame-mode" && !all_are(Support::free))
+    t.place("solution").refuse("\"lame-mode\" of a plate that is held", "with four free sides");
+  if ((exact.solution == "roller-mode" || exact.solution == "p-wave") && !all_are(Support::roller))
+    t.place("solution").refuse(words(exact.solution) + " of a plate held otherwise", "with four sides on rollers");
   const bool square = std::abs(c.plate->width - c.plate->height) <= 1e-12 * c.plate->width;
   if (!square && (exact.solution == "lame-mode" || exact.solution == "roller-mode"))
     t.place("solution").refuse(words(exact.solution) + " of a rectangle", "on a square: width = height");
@@ -377,8 +390,7 @@ PlateProbe read_plate_probe(Table& t, const Case& c) {
     reads = {"displacement-x", "displacement-y", "velocity-x", "velocity-y", "stress-xx", "stress-yy", "stress-xy"};
     if (c.plate->evolution)
       reads.insert(reads.end(), {"radius", "area", "largest", "acoustic-ratio", "acoustic-angle"});
-    if (c.plate->evolution && c.plate->evolution->diffusion)
-      reads.insert(reads.end(), {"concentration", "total"});
+    if (c.plate->evolution && c.plate->evolution->diffusion) reads.insert(reads.end(), {"concentration", "total"});
   }
   probe.reads = t.need("reads", one_of(reads));
   const auto of = [&](const char* key, const Names& owners) { return t.applies(key, "reads", probe.reads, owners); };
@@ -433,12 +445,32 @@ void check_meshes(const Place& place, const Case& c) {
     const Cells n = cells_of(*c.plate, cells);
     const double aspect = c.plate->height / n.y / (c.plate->width / n.x);
     if (n.y > 1 && std::abs(aspect / c.plate->cell_aspect - 1) > 0.5)
-      place.say(fmt::format("found {} cells across, which makes {} × {} cells of aspect {:g}; allowed: numbers that "
-                            "come near plate.cell_aspect = {:g}",
-                            cells, n.x, n.y, aspect, c.plate->cell_aspect));
+      place.say(
+          fmt::format("found {} cells across, which makes {} × {} cells of aspect {:g}; allowed: numbers that "
+                      "come near plate.cell_aspect = {:g}",
+                      cells, n.x, n.y, aspect, c.plate->cell_aspect));
     if (static_cast<double>(n.x) * n.y > most)
       place.say(fmt::format("found {} × {} cells; allowed: at most {:g}", n.x, n.y, most));
   }
+}
+
+/// What MPM cannot take.
+void check_mpm(const AxesBlock& block, const Case& c) {
+  const auto mpm = [](const std::string& method) { return method.starts_with("mpm"); };
+  if (std::none_of(block.axes.method.begin(), block.axes.method.end(), mpm)) return;
+  constexpr std::size_t most = 8;
+  for (const auto& positions : block.axes.particles)
+    if (positions.size() > most)
+      block.method.say(
+          fmt::format("found {0} × {0} particles in a cell; allowed: at most {1} × {1}", positions.size(), most));
+  const auto& supports = c.plate->supports;
+  const bool bound = std::any_of(supports.begin(), supports.end(), [](Edge::Support s) {
+    return s == Edge::Support::driven || s == Edge::Support::platen;
+  });
+  if (c.convected && (bound || !c.plate->loads.empty()))
+    block.method.say(
+        "found MPM together with finite displacements and a load, a driven side or a platen; allowed: free sides, "
+        "rollers and fixed ones: the others stand on the grid, which the particles leave");
 }
 
 }  // namespace
@@ -453,9 +485,8 @@ void read_plate_case(Table& file, Case& c) {
       c.plate->pic = t.get("pic", not_negative());
       if (c.plate->pic > 1) t.place("pic").refuse(words(c.plate->pic), "0 (FLIP) to 1 (PIC)");
     }
-    c.features = t.need("features",
-                        set_of(one_of({"elastic", "damage", "diffusion", "compression-plasticity", "platen",
-                                       "body-force", "convection", "pic"})));
+    c.features = t.need("features", set_of(one_of({"elastic", "damage", "diffusion", "compression-plasticity", "platen",
+                                                   "body-force", "convection", "pic"})));
     std::sort(c.features.begin(), c.features.end());
     if (scene_is_read) check_plate_features(t.place("features"), c);
     if (c.convected && c.plate->evolution)
@@ -464,8 +495,14 @@ void read_plate_case(Table& file, Case& c) {
   if (scene_is_read) file.each("variant", [&](Table& t) { read_variant(t, file, c); });
   const double pic = c.plate->pic;
   for (PlateVariant& variant : c.variants) variant.plate.pic = pic;
-  if (!scene_is_read) file.place("variant");
+  if (!scene_is_read) {  // their ids, so that [axes] is not blamed for naming them
+    file.each("variant", [&](Table& t) {
+      c.variants.push_back({t.get("id", id()), "", *c.plate});
+      for (const char* key : {"says", "set", "without"}) t.place(key);
+    });
+  }
   const std::vector<AxesBlock> blocks = read_all_axes(file, c, methods_of(c), {{0.25, 0.75}});
+  for (const AxesBlock& block : blocks) check_mpm(block, c);
   file.table("sample", [&](Table& t) { read_plate_sample(t, c); });
   if (scene_is_read) check_meshes(file.place("axes"), c);
   read_judgement(file, c);

@@ -14,7 +14,9 @@
 namespace diptych::cases {
 namespace {
 
-const material::TensileDamage& damage_of(const Case& c) { return std::get<material::TensileDamage>(*c.plate->material); }
+const material::TensileDamage& damage_of(const Case& c) {
+  return std::get<material::TensileDamage>(*c.plate->material);
+}
 
 NodalMap map_of(const reports::PlateFields& fields, const std::vector<double>& values) {
   return {fields.nx, fields.ny, fields.width / fields.nx, fields.height / fields.ny, values};

@@ -49,9 +49,7 @@ struct PlaneElastic {
   /// c = √(E/ρ) of eqs. 23a and 26 [m/s].
   double uniaxial_wave_speed() const { return std::sqrt(youngs_modulus / density); }
   /// tr ε of the three-dimensional strain, of (ε_xx + ε_yy).
-  double trace_factor() const {
-    return plane == Plane::strain ? 1 : (1 - 2 * poissons_ratio) / (1 - poissons_ratio);
-  }
+  double trace_factor() const { return plane == Plane::strain ? 1 : (1 - 2 * poissons_ratio) / (1 - poissons_ratio); }
 };
 
 }  // namespace diptych::material

@@ -26,10 +26,10 @@ enum class Side { left, right, bottom, top };
 struct Edge {
   enum class Support {
     free,
-    roller,   ///< no motion across the side, free along it
-    fixed,    ///< no motion
-    driven,   ///< moves with the given velocity
-    platen    ///< a rigid frictionless one: equal motion across the side, free along it; top or bottom, left or right
+    roller,  ///< no motion across the side, free along it
+    fixed,   ///< no motion
+    driven,  ///< moves with the given velocity
+    platen   ///< a rigid frictionless one: equal motion across the side, free along it; top or bottom, left or right
   };
   Support support = Support::free;
   /// Mean traction over [from, to], to > from [Pa], along the outward normal (tension positive) and along the side
@@ -44,11 +44,11 @@ using PlateMaterial = std::variant<material::PlaneElastic, material::TensileDama
 struct Plate {
   double width = 0, height = 0;  ///< L_x, L_y [m]
   PlateMaterial material;
-  std::optional<material::Compression> compression;  ///< plane strain only
-  std::array<Edge, 4> edges;                         ///< by Side
-  std::function<Vector(double x, double y, double t)> body_force;                  ///< specific, b of eq. 2 [m/s²]
-  std::function<Vector(double x, double y)> initial_velocity;                      ///< [m/s]
-  std::function<Vector(double x, double y)> initial_displacement;                  ///< [m], strains follow from it
+  std::optional<material::Compression> compression;                ///< plane strain only
+  std::array<Edge, 4> edges;                                       ///< by Side
+  std::function<Vector(double x, double y, double t)> body_force;  ///< specific, b of eq. 2 [m/s²]
+  std::function<Vector(double x, double y)> initial_velocity;      ///< [m/s]
+  std::function<Vector(double x, double y)> initial_displacement;  ///< [m], strains follow from it
   bool convected = false;  ///< particles move and cross cells; false: infinitesimal displacements
   double pic = 0;          ///< part of PIC in MPM's velocity update, 0 (FLIP) to 1
 
@@ -56,7 +56,8 @@ struct Plate {
   const Edge& edge(Side side) const { return edges[static_cast<std::size_t>(side)]; }
 };
 
-/// Cells of the mesh and of MPM's grid, across and up; cells are numbered row by row from the bottom, each row from the left.
+/// Cells of the mesh and of MPM's grid, across and up; cells are numbered row by row from the bottom, each row from the
+/// left.
 struct Cells {
   int x = 1, y = 1;
 };
@@ -76,13 +77,13 @@ struct PointField {
 
 struct PlateSnapshot {
   long step = 0;
-  double time = 0;                          ///< of strain, crack density and concentration [s]
-  PointField displacement, velocity;        ///< x, y
-  PointField stress;                        ///< xx, yy, xy
-  std::vector<double> volumetric_strain;    ///< of each cell, the mean over its triangles or particles
-  std::vector<double> crack_density;        ///< C_d of each cell; empty without damage
-  std::vector<material::Tensor> strain;     ///< with damage: of each cell, the mean over its triangles or particles
-  std::vector<double> concentration;        ///< C of each cell node, row by row; empty without diffusion [1/m³]
+  double time = 0;                        ///< of strain, crack density and concentration [s]
+  PointField displacement, velocity;      ///< x, y
+  PointField stress;                      ///< xx, yy, xy
+  std::vector<double> volumetric_strain;  ///< of each cell, the mean over its triangles or particles
+  std::vector<double> crack_density;      ///< C_d of each cell; empty without damage
+  std::vector<material::Tensor> strain;   ///< with damage: of each cell, the mean over its triangles or particles
+  std::vector<double> concentration;      ///< C of each cell node, row by row; empty without diffusion [1/m³]
 };
 
 /// True if every value is finite.

@@ -75,7 +75,7 @@ struct Stepping {
   long steps = 0;                  ///< number of steps
   std::vector<long> sample_after;  ///< step counts after which fields are sampled, ascending, each ≤ steps
   Books books = Books::sums;
-  int threads = 1;               ///< plates; the results are the same bits for any number
+  int threads = 1;                               ///< plates; the results are the same bits for any number
   const std::atomic<bool>* cancelled = nullptr;  ///< asked between steps; true stops the run
 };
 

@@ -12,12 +12,12 @@ namespace diptych::material {
 /// the whole one's.
 struct TensileDamage {
   PlaneElastic elastic;
-  double fracture_toughness = 1e6;    ///< K_IC [Pa √m]
-  double flaw_density = 5e22;         ///< k [1/m³]
-  double exponent = 7;                ///< m
-  double beta = 1;                    ///< fraction β of damage in unloading; α = 16β/9
-  double residual_stiffness = 1e-3;   ///< least (1 − D) that enters the stiffness; our choice
-  bool trace = false;                 ///< reads ε_v as tr ε; false: as tr ε / 3, our choice
+  double fracture_toughness = 1e6;   ///< K_IC [Pa √m]
+  double flaw_density = 5e22;        ///< k [1/m³]
+  double exponent = 7;               ///< m
+  double beta = 1;                   ///< fraction β of damage in unloading; α = 16β/9
+  double residual_stiffness = 1e-3;  ///< least (1 − D) that enters the stiffness; our choice
+  bool trace = false;                ///< reads ε_v as tr ε; false: as tr ε / 3, our choice
 
   double alpha() const { return 16 * beta / 9; }
   /// ε_v of a strain in the plane.

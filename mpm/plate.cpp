@@ -620,7 +620,6 @@ void check(const Plate& plate, const Cells& cells, const std::vector<double>& po
   refuse(!(plate.pic >= 0 && plate.pic <= 1), "the part of PIC lies between 0 and 1");
   refuse(plate.convected && damaging,
          "damage stays in its cells, so particles that cross cells cannot have it (convected with tensile damage)");
-  int platens = 0;
   for (const Side side : sides) {
     const Edge& edge_of_plate = plate.edge(side);
     const auto is = [&](Edge::Support s) { return edge_of_plate.support == s; };
@@ -629,13 +628,18 @@ void check(const Plate& plate, const Cells& cells, const std::vector<double>& po
            "a side that moves is not on the grid's nodes (convected with a driven side or a platen)");
     refuse(plate.convected && (edge_of_plate.normal_traction || edge_of_plate.shear_traction),
            "tractions act on the nodes of a side that stays there (convected with tractions)");
-    if (!is(Edge::Support::platen)) continue;
-    refuse(++platens > 1, "one platen at most");
-    for (const Side other : sides) {
-      const auto support = plate.edge(other).support;
-      refuse(across(other) != across(side) && (support == Edge::Support::fixed || support == Edge::Support::driven),
-             "a platen beside a fixed or driven side has a corner that must move in two ways");
-    }
+    const bool normal{edge_of_plate.normal_traction}, shear{edge_of_plate.shear_traction};
+    refuse((is(Edge::Support::driven) || is(Edge::Support::fixed)) && (normal || shear),
+           "a traction on a side that is driven or fixed does nothing");
+    refuse(is(Edge::Support::roller) && normal, "a normal traction on rollers does nothing");
+    refuse(is(Edge::Support::platen) && shear, "a platen is frictionless and passes no shear on");
+    const auto held = [&](Side beside) {
+      const auto support = plate.edge(beside).support;
+      return support == Edge::Support::fixed || support == Edge::Support::driven;
+    };
+    refuse(is(Edge::Support::platen) && (across(side) ? cells.y == 1 && held(Side::bottom) && held(Side::top)
+                                                      : cells.x == 1 && held(Side::left) && held(Side::right)),
+           "a platen whose nodes are all held by the sides beside it");
   }
 }
 

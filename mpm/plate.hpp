@@ -12,12 +12,22 @@
 namespace diptych::mpm {
 
 /// Largest stable step of a plate whose particles stand in every cell at positions × positions (natural coordinates in
-/// [0, 1]) [s]. It holds for free sides too. A plate whose particles move is given the least limit over arrangements that
-/// it may pass through.
+/// [0, 1]) [s]: the least of the interior's limit and of that of the plate itself, free and as it is held, or where it
+/// has more than eight cells along a side, of a part of it. A part of PIC lowers it. Convected particles: USF and MUSL
+/// get the interior's least over all arrangements, that of particles on the nodes; USL has none above zero, and the
+/// value for the positions at the start is given. As on the bar that is necessary and not enough: crossing feeds energy
+/// in, and a free side that has just entered a cell has nodes with next to no mass.
 double critical_time_step(const Plate&, const Cells&, const std::vector<double>& positions, Scheme);
 
-/// Runs the plate. `evolution` is needed with TensileDamage, and only then.
-/// Throws std::invalid_argument for a scene that MPM cannot take.
+/// Runs the plate. `evolution` is needed with TensileDamage, and only then. At most 8 × 8 particles a cell. Time levels
+/// are the bar's: with MUSL and USL strain, stress and displacement stand at the step's time and velocity half a step
+/// before it; with USF velocity stands at the step's time, strain and stress half a step before and displacement half a
+/// step after it. Snapshots give the particles in the order of their cells, each cell's row by row. The books' momentum
+/// and impulse are the components along (1, 1)/√2; their `scheme` is what mapping takes: USL's, that of particles that
+/// move, PIC's, and what a driven side does to particles that do not follow it exactly. A corner of two driven sides
+/// goes with the first of them in the order of Side; a platen's end node with a fixed or driven side beside it. Throws
+/// std::invalid_argument for a scene that MPM cannot take: convected with damage, tractions, or a driven side or
+/// platen, and loads that do nothing.
 PlateRecord run(const Plate&, const Cells&, const std::vector<double>& positions, Scheme,
                 const std::optional<diffusion::Evolution>& evolution, const Stepping&);
 

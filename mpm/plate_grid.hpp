@@ -190,7 +190,7 @@ class Supports {
 
   Supports(const Plate& plate, Grid& grid) : plate_(plate), grid_(grid) {
     for (const Side side : sides) {
-      if (plate.edge(side).support == Edge::Support::platen) platen_ = side;
+      if (plate.edge(side).support == Edge::Support::platen) platens_.push_back(platen_on(side));
       if (plate.edge(side).support == Edge::Support::driven) {
         for_nodes(side, [&](std::size_t i, std::size_t j) {
           const auto here = [&](const Driven& d) { return d.i == i && d.j == j; };
@@ -209,14 +209,14 @@ class Supports {
     }
     return true;
   }
-  bool has_platen() const { return platen_.has_value(); }
+  bool has_platen() const { return !platens_.empty(); }
   const std::vector<Driven>& driven() const { return driven_; }
   std::size_t bytes() const { return driven_.capacity() * sizeof(Driven); }
 
   /// Holds the velocities just mapped. Returns Σ m (held − mapped) along (1, 1) [kg m/s].
   double hold_velocity() {
     for (Driven& d : driven_) d.unheld = {grid_.velocity.x[at(d.i, d.j)], grid_.velocity.y[at(d.i, d.j)]};
-    level_platen(grid_.velocity);
+    level_platens(grid_.velocity);
     return hold(grid_.velocity, [](const Driven& d) { return d.after; });
   }
 
@@ -227,7 +227,7 @@ class Supports {
       d.after = plate_.edge(d.side).velocity(grid_.x(d.i), grid_.y(d.j), to);
       d.reaction = {grid_.acceleration.x[at(d.i, d.j)], grid_.acceleration.y[at(d.i, d.j)]};
     }
-    level_platen(grid_.acceleration);
+    level_platens(grid_.acceleration);
     const double total = hold(grid_.acceleration, [&](const Driven& d) {
       return Vector{(d.after[0] - d.before[0]) / kick, (d.after[1] - d.before[1]) / kick};
     });
@@ -239,13 +239,11 @@ class Supports {
     return total;
   }
 
-  /// Of the platen along its outward normal, of a field that stands held.
+  /// Of the first platen along its outward normal, of a field that stands held.
   double of_platen(const VectorField& field) const {
-    const bool across = *platen_ == Side::left || *platen_ == Side::right;
-    const bool positive = *platen_ == Side::right || *platen_ == Side::top;
-    const std::size_t node = at(*platen_ == Side::right ? grid_.nx : 0, *platen_ == Side::top ? grid_.ny : 0);
-    const double value = (across ? field.x : field.y)[node];
-    return positive ? value : -value;
+    const Platen& p = platens_.front();
+    const double value = (p.across ? field.x : field.y)[p.first];
+    return p.side == Side::right || p.side == Side::top ? value : -value;
   }
 
   /// Calls f(i, j) for the nodes of a side, towards larger coordinates.
@@ -262,26 +260,47 @@ class Supports {
   static constexpr std::array sides{Side::left, Side::right, Side::bottom, Side::top};
   std::size_t at(std::size_t i, std::size_t j) const { return grid_.row(j) + i; }
 
+  /// A side's nodes that move as one across it: all but those at its ends that a side beside it holds or drives.
+  struct Platen {
+    Side side;
+    bool across;  ///< moves along x
+    std::size_t first, stride, count, i, j;
+  };
+
+  Platen platen_on(Side side) const {
+    const bool across = side == Side::left || side == Side::right;
+    const auto held = [&](Side beside) {
+      const auto support = plate_.edge(beside).support;
+      return support == Edge::Support::fixed || support == Edge::Support::driven ? std::size_t{1} : std::size_t{0};
+    };
+    const std::size_t skipped = held(across ? Side::bottom : Side::left);
+    const std::size_t count = (across ? grid_.ny : grid_.nx) + 1 - skipped - held(across ? Side::top : Side::right);
+    const std::size_t i = side == Side::right ? grid_.nx : across ? 0 : skipped;
+    const std::size_t j = side == Side::top ? grid_.ny : across ? skipped : 0;
+    return {side, across, at(i, j), across ? grid_.next_row() : 1, count, i, j};
+  }
+
   /// A platen's nodes share their momentum or force across the side: the M-orthogonal mean, which does no work. Summed
   /// from the outside in, so that a mirrored plate adds the same numbers.
-  void level_platen(VectorField& field) {
-    if (!platen_) return;
-    const bool across = *platen_ == Side::left || *platen_ == Side::right;
-    std::vector<double>& values = across ? field.x : field.y;
-    const std::size_t first = at(*platen_ == Side::right ? grid_.nx : 0, *platen_ == Side::top ? grid_.ny : 0);
-    const std::size_t stride = across ? grid_.next_row() : 1, count = (across ? grid_.ny : grid_.nx) + 1;
-    const auto mass = [&](std::size_t k) {
-      return across ? grid_.mass_of(*platen_ == Side::right ? grid_.nx : 0, k)
-                    : grid_.mass_of(k, *platen_ == Side::top ? grid_.ny : 0);
-    };
-    const auto product = [&](std::size_t k) { return mass(k) * values[first + k * stride]; };
-    double sum = 0, masses = 0;
-    for (std::size_t low = 0, high = count - 1; low <= high; ++low, --high) {
-      sum += low == high ? product(low) : product(low) + product(high);
-      masses += low == high ? mass(low) : mass(low) + mass(high);
-      if (high == 0) break;
+  void level_platens(VectorField& field) {
+    for (const Platen& p : platens_) {
+      double* values = (p.across ? field.x : field.y).data() + p.first;
+      const auto mass = [&](std::size_t k) {
+        return grid_.mass_of(p.across ? p.i : p.i + k, p.across ? p.j + k : p.j);
+      };
+      double sum = 0, masses = 0;
+      for (std::size_t k = 0; k < p.count / 2; ++k) {
+        const std::size_t far = p.count - 1 - k;
+        sum += mass(k) * values[k * p.stride] + mass(far) * values[far * p.stride];
+        masses += mass(k) + mass(far);
+      }
+      if (p.count % 2 == 1) {
+        const std::size_t middle = p.count / 2;
+        sum += mass(middle) * values[middle * p.stride];
+        masses += mass(middle);
+      }
+      for (std::size_t k = 0; k < p.count; ++k) values[k * p.stride] = sum / masses;
     }
-    for (std::size_t k = 0; k < count; ++k) values[first + k * stride] = sum / masses;
   }
 
   template <class Given>
@@ -311,7 +330,7 @@ class Supports {
 
   const Plate& plate_;
   Grid& grid_;
-  std::optional<Side> platen_;
+  std::vector<Platen> platens_;
   std::vector<Driven> driven_;
 };
 

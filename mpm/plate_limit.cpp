@@ -117,28 +117,35 @@ double block(const Setting& s, const Plate& plate, bool free, int nx, int ny) {
     };
     return by(Side::left, i == 0) || by(Side::right, i == nx) || by(Side::bottom, j == 0) || by(Side::top, j == ny);
   };
-  const auto on_platen = [&](Eigen::Index i, Eigen::Index j, int c) {
+  const auto platen_of = [&](Eigen::Index i, Eigen::Index j, int c) {
     const auto by = [&](Side side, bool there) {
       return there && !free && plate.edge(side).support == Edge::Support::platen &&
              c == (side == Side::left || side == Side::right ? 0 : 1);
     };
-    return by(Side::left, i == 0) || by(Side::right, i == nx) || by(Side::bottom, j == 0) || by(Side::top, j == ny);
+    return by(Side::left, i == 0)     ? 0
+           : by(Side::right, i == nx) ? 1
+           : by(Side::bottom, j == 0) ? 2
+           : by(Side::top, j == ny)   ? 3
+                                      : -1;
   };
-  Eigen::VectorXd platen = Eigen::VectorXd::Zero(size);
+  std::array<Eigen::VectorXd, 4> platen;
+  platen.fill(Eigen::VectorXd::Zero(size));
   for (Eigen::Index j = 0; j <= ny; ++j) {
     for (Eigen::Index i = 0; i <= nx; ++i) {
       for (int c = 0; c < 2; ++c) {
         const Eigen::Index dof = 2 * (j * row + i) + c;
         if (held(i, j, c)) continue;
-        if (on_platen(i, j, c)) {
-          platen(dof) = std::sqrt(M(dof / 2));
+        if (const int side = platen_of(i, j, c); side >= 0) {
+          platen[static_cast<std::size_t>(side)](dof) = std::sqrt(M(dof / 2));
         } else {
           columns.push_back(Eigen::VectorXd::Unit(size, dof));
         }
       }
     }
   }
-  if (platen.norm() > 0) columns.push_back(platen.normalized());
+  for (const auto& side : platen) {
+    if (side.norm() > 0) columns.push_back(side.normalized());
+  }
   if (columns.empty()) return 0;
   Matrix Q(size, static_cast<Eigen::Index>(columns.size()));
   for (std::size_t k = 0; k < columns.size(); ++k) Q.col(static_cast<Eigen::Index>(k)) = columns[k];

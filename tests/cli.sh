@@ -91,6 +91,104 @@ expect 14 'above the limit' "$program" gate fast.toml
 sed 's/features = \["elastic"\]/features = ["plasticity"]/' own.toml > features.toml
 expect 14 'features' "$program" gate features.toml
 
+# A plate of one's own: pulled within 20 µs, with damage that spreads; its fields for ParaView; what is refused.
+cat > plate.toml <<'TOML'
+schema = 1
+id = "slab"
+title = "My slab"
+claim = "robustness"
+why = "to try"
+units = "SI"
+[plate]
+width = 0.4
+height = 0.6
+[material]
+model = "tensile-damage"
+E = 30e9
+nu = 0.2
+rho = 2400
+plane = "strain"
+K_IC = 1e6
+k = 5e22
+m = 7
+[damage]
+critical_strain = 0.001
+rate = "tracked"
+[diffusion]
+T_d = 0.001
+lambda1 = 200
+lambda2 = 0.01
+rupture_strain = 0.01
+source = "zone"
+radius = 0.05
+scheme = "rkl2"
+[supports]
+left = "roller"
+right = "free"
+bottom = "roller"
+top = "free"
+[[load]]
+at = "top"
+history = "ramp"
+traction = 200e6
+rise = { value = 20e-6, unit = "s" }
+[model]
+features = ["damage", "diffusion"]
+[axes]
+method = ["fem", "mpm-musl"]
+cells = [8]
+courant = [0.5]
+[sample]
+times = { unit = "s", at = [1e-4, 2e-4] }
+[[gate]]
+id = "balance"
+kind = "invariant"
+quantity = "concentration.balance"
+max = 1e-12
+reason = "no flux through the sides"
+TOML
+expect 0 'fem' "$program" run plate.toml --fields --out slab
+expect 0 'particles' sh -c 'ls slab/fields/slab'
+expect 0 'DataSet.*timestep.*file=.*vtu' sh -c 'cat slab/fields/slab/*.pvd'
+expect 0 'crack density' sh -c 'cat slab/fields/slab/*cells.0001.vtu'
+expect 0 'plate.*0.4' "$program" show plate.toml
+sed 's/^radius = 0.05/raduis = 0.05/' plate.toml > plate-typo.toml
+expect 14 "plate-typo.toml:[0-9]+.*diffusion.raduis.*did you mean.*radius" "$program" gate plate-typo.toml
+sed 's/courant = \[0.5\]/courant = [0.6]/' plate.toml > plate-fast.toml
+expect 14 'above the limit' "$program" gate plate-fast.toml
+
+cat > spread.toml <<'TOML'
+schema = 1
+id = "spread"
+title = "Diffusion alone"
+claim = "robustness"
+why = "to try"
+units = "SI"
+[plate]
+width = 1.0
+height = 1.0
+[diffusion]
+diffusivity = 1.0
+scheme = "forward-euler"
+[initial]
+concentration = "x*y"
+[model]
+features = ["diffusion"]
+[axes]
+method = ["diffusion"]
+cells = [10]
+courant = [0.2525]
+[sample]
+times = { unit = "s", at = [0.5] }
+[[gate]]
+id = "balance"
+kind = "invariant"
+quantity = "concentration.balance"
+max = 1e-12
+reason = "no flux through the sides"
+TOML
+expect 14 'time step of 0.002525, above the limit 0.0025 ' "$program" gate spread.toml
+
 # Results do not depend on the number of threads (wall time aside) and are never half there.
 "$program" gate 'bar.step.*' -j1 --json one.jsonl >/dev/null 2>&1
 "$program" gate 'bar.step.*' -j2 --json two.jsonl >/dev/null 2>&1

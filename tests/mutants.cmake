@@ -3,13 +3,15 @@
 # A defect of the oracle that its self-test finds makes its gates INVALID instead, and one that breaks the run ERROR; neither
 # counts as the defect that every gate must have.
 #
-#   mutant(NAME FILE file FIND text REPLACE text [VERDICT INVALID|ERROR] KILLS gate...)
+#   mutant(NAME FILE file FIND text REPLACE text [SOURCES source...] [VERDICT INVALID|ERROR] KILLS gate...)
+#
+# SOURCES: of a header, the sources that are built with the defect; without it those of the bars.
 
 set(killed_list ${CMAKE_CURRENT_BINARY_DIR}/killed.txt)
 file(WRITE ${killed_list} "")
 
 function(mutant name)
-  cmake_parse_arguments(PARSE_ARGV 1 M "" "FILE;FIND;REPLACE;VERDICT" "KILLS")
+  cmake_parse_arguments(PARSE_ARGV 1 M "" "FILE;FIND;REPLACE;VERDICT" "KILLS;SOURCES")
   set(source ${PROJECT_SOURCE_DIR}/${M_FILE})
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${source})
   file(READ ${source} text)
@@ -33,13 +35,17 @@ function(mutant name)
   target_include_directories(${target} BEFORE PRIVATE ${folder})
   if(M_FILE MATCHES "[.]cpp$")
     target_sources(${target} PRIVATE ${mutated})
+  elseif(M_SOURCES)
+    list(TRANSFORM M_SOURCES PREPEND ${PROJECT_SOURCE_DIR}/)
+    target_sources(${target} PRIVATE ${M_SOURCES})
   elseif(M_FILE MATCHES "^fem/")  # a header of one solver
     target_sources(${target} PRIVATE ${PROJECT_SOURCE_DIR}/fem/bar.cpp)
   else()  # of both
     target_sources(${target} PRIVATE ${PROJECT_SOURCE_DIR}/fem/bar.cpp ${PROJECT_SOURCE_DIR}/mpm/bar.cpp)
   endif()
   # What the defect's own objects define, the libraries' are not asked for.
-  target_link_libraries(${target} PRIVATE diptych_cases diptych_fem diptych_mpm)
+  target_link_libraries(${target} PRIVATE diptych_cases diptych_fem diptych_mpm diptych_diffusion
+    fmt::fmt Eigen3::Eigen SuiteSparse::CHOLMOD TBB::tbb)
   target_compile_options(${target} PRIVATE -O1 -Wno-error)
 
   if(NOT M_VERDICT)
@@ -463,6 +469,198 @@ mutant(viscosity-takes-no-energy FILE fem/bar.cpp
   FIND    "ledger->take_by_viscosity(sums.viscous_after);"
   REPLACE ""
   KILLS viscosity.front/closure)
+
+# --- plates and diffusion -------------------------------------------------------------------------------------------------
+
+mutant(plate-damage-a-step-late FILE fem/plate.cpp
+  FIND    "evolution_->advance(volumetric_, dt_);"
+  REPLACE "static thread_local std::vector<double> late; late.resize(volumetric_.size()); late.swap(volumetric_); evolution_->advance(volumetric_, dt_);"
+  KILLS plate.driver/stress)
+mutant(backward-euler-half-way FILE diffusion/concentration.cpp
+  FIND    "return scheme == Scheme::backward_euler ? 1 : 0.5;"
+  REPLACE "return 0.5;"
+  KILLS diffusion.time/first)
+mutant(implicit-diffusion-leaks FILE diffusion/concentration.cpp
+  FIND    "u[k] += delta[k] + missing;"
+  REPLACE "u[k] += delta[k] + missing + 1e-9;"
+  KILLS diffusion.time/balance)
+mutant(source-takes-away FILE diffusion/damage_evolution.cpp
+  FIND    "return density / d.characteristic_time / ("
+  REPLACE "return -density / d.characteristic_time / ("
+  KILLS plate.driver-diffusion/stress-1 plate.driver-diffusion/stress-3 plate.driver-diffusion/total-1
+        plate.driver-diffusion/total-3 plate.extremes/not-negative plate.extremes/ruptures)
+mutant(mpm-plate-pulled-a-little-more FILE mpm/plate.cpp
+  FIND    "mean(edge_of_plate.normal_traction);"
+  REPLACE "1.05 * mean(edge_of_plate.normal_traction);"
+  KILLS plate.damage/late-radius-0 plate.damage/late-radius-45)
+mutant(fem-plate-strained-less FILE fem/plate.cpp
+  FIND    "volumetric_[cell] = damage().volumetric("
+  REPLACE "volumetric_[cell] = 0.9 * damage().volumetric("
+  KILLS plate.damage/early-area plate.damage/early-radius-45 plate.damage/early-radius-90 plate.damage/late-area
+        plate.damage/late-total plate.damage/platen)
+mutant(mpm-plate-strained-less FILE mpm/plate.cpp
+  FIND    "volumetric_strain_[j * nx_ + i] = volumetric("
+  REPLACE "volumetric_strain_[j * nx_ + i] = 0.9 * volumetric("
+  KILLS plate.damage/early-area plate.damage/early-contour plate.damage/early-radius-0 plate.damage/early-radius-45
+        plate.damage/early-radius-90 plate.damage/early-total plate.damage/platen)
+mutant(mpm-plate-strained-more FILE mpm/plate.cpp
+  FIND    "volumetric_strain_[j * nx_ + i] = volumetric("
+  REPLACE "volumetric_strain_[j * nx_ + i] = 1.1 * volumetric("
+  KILLS plate.damage/early-area plate.damage/early-radius-45 plate.damage/early-total plate.damage/late-radius-0
+        plate.damage/late-radius-90 plate.damage/platen)
+mutant(fem-plate-cracked-by-nothing FILE fem/plate.cpp
+  FIND    "if (crack_density != 0) {"
+  REPLACE "if (true) {"
+  KILLS plate.undamaged/elastic)
+mutant(compression-without-its-slope FILE material/compression.hpp SOURCES fem/plate.cpp mpm/plate.cpp
+  FIND    "strength + slope"
+  REPLACE "strength + 0 * slope"
+  KILLS plate.compression/stress)
+mutant(plate-stress-for-strain FILE material/plane.hpp SOURCES fem/plate.cpp fem/plate_time_step.cpp mpm/plate.cpp
+  FIND    "if (plane == Plane::stress) return"
+  REPLACE "if (plane == Plane::strain) return"
+  KILLS plate.driver/stress plate.p-wave/constant plate.patch/stress plate.stability/limit)
+mutant(plate-shear-a-hundredth-off FILE material/plane.hpp SOURCES fem/plate.cpp fem/plate_time_step.cpp mpm/plate.cpp
+  FIND    "const double shear = E / (2 * (1 + nu));"
+  REPLACE "const double shear = 1.01 * E / (2 * (1 + nu));"
+  KILLS plate.incompressible/constant plate.incompressible/displacement-order plate.lame/constant
+        plate.lame/displacement-order plate.patch/stress)
+mutant(plate-mpm-swapped-gradient FILE mpm/plate_kernels.hpp SOURCES mpm/plate.cpp
+  FIND    "strain.yy[p] += near[a] * yy_left + far[a] * yy_right;"
+  REPLACE "strain.yy[p] += near[a] * xy_left + far[a] * xy_right;"
+  KILLS plate.patch/stress plate.patch/velocity plate.rigid/displacement plate.rigid/velocity)
+mutant(plate-fem-swapped-gradient FILE fem/cell.hpp SOURCES fem/plate.cpp
+  FIND    "(along_x[1] / h.x + along_y[0] / h.y) / 2"
+  REPLACE "(along_x[0] / h.x + along_y[1] / h.y) / 2"
+  KILLS plate.bits/closure plate.bits/drift plate.bits/mirror plate.driver/closure plate.driver/stress
+        plate.lame/energy plate.patch/stress)
+mutant(plate-mpm-leaves-a-particle-out FILE mpm/plate_kernels.hpp SOURCES mpm/plate.cpp
+  FIND    "bottom_left[i] = pair_sum<n>(count, [&](std::size_t b) DIPTYCH_INLINE { return near[b] * along(near, b); });"
+  REPLACE "bottom_left[i] = i == 0 ? 0 : pair_sum<n>(count, [&](std::size_t b) DIPTYCH_INLINE { return near[b] * along(near, b); });"
+  KILLS plate.bits/closure plate.bits/drift plate.bits/mirror plate.rigid/displacement plate.rigid/velocity)
+mutant(plate-mpm-damage-a-step-late FILE mpm/plate.cpp
+  FIND    "    evolution_->advance(volumetric_strain_, dt);
+    law_.crack(evolution_->crack_density());"
+  REPLACE "    law_.crack(evolution_->crack_density());
+    evolution_->advance(volumetric_strain_, dt);"
+  KILLS plate.driver-diffusion/stress-1 plate.driver-diffusion/stress-3 plate.driver/stress)
+mutant(source-without-its-time FILE diffusion/damage_evolution.cpp
+  FIND    "return density / d.characteristic_time / ("
+  REPLACE "return density / ("
+  KILLS plate.driver-diffusion/stress-1 plate.driver-diffusion/stress-3 plate.driver-diffusion/total-1
+        plate.driver-diffusion/total-3)
+mutant(rate-not-kept FILE diffusion/damage_evolution.cpp
+  FIND    "largest = std::max(largest, (strain - strain_before_[k]) / dt);"
+  REPLACE "largest = (strain - strain_before_[k]) / dt;"
+  KILLS plate.driver-tracked/stress)
+mutant(concentration-counted-twice FILE diffusion/damage_evolution.cpp
+  FIND    "const double mean = 0.25 * ("
+  REPLACE "const double mean = 0.5 * ("
+  KILLS plate.driver-diffusion/stress-1 plate.driver-diffusion/stress-3)
+mutant(source-beyond-rupture FILE diffusion/damage_evolution.cpp
+  FIND    "const double most = evolution_.cap / d.crack_volume;"
+  REPLACE "const double most = 1.2 * evolution_.cap / d.crack_volume;"
+  KILLS plate.extremes/ruptures)
+mutant(what-is-fed-is-misread FILE diffusion/concentration.cpp
+  FIND    "fed += dt * rate;"
+  REPLACE "fed += 1.0001 * dt * rate;"
+  KILLS plate.choices/balance plate.damage/balance plate.extremes/balance plate.runaway/balance plate.schemes/balance)
+mutant(corner-source-without-its-quarter FILE cases/plate_runner.cpp
+  FIND    "source[0] = spec.corner_rate / (grid.hx * grid.hy / 4);"
+  REPLACE "source[0] = spec.corner_rate / (grid.hx * grid.hy);"
+  KILLS diffusion.corner-source/error diffusion.corner-source/order diffusion.corner-source/total)
+mutant(diffusion-a-hundredth-off FILE diffusion/concentration.cpp
+  FIND    "const double across = grid.hy / (2 * grid.hx), up"
+  REPLACE "const double across = 1.01 * grid.hy / (2 * grid.hx), up"
+  KILLS diffusion.corner-source/error diffusion.corner-source/order diffusion.mode/order diffusion.order-four/error
+        diffusion.order-four/order diffusion.time/rkl2 diffusion.time/second diffusion.variable/error
+        diffusion.variable/order)
+mutant(diffusivity-of-one-side FILE diffusion/concentration.cpp
+  FIND    "e[i] = across * (below[i] + above[i]);"
+  REPLACE "e[i] = across * (below[i] + below[i]);"
+  KILLS diffusion.variable/order)
+mutant(diffusion-leaks FILE diffusion/concentration.cpp
+  FIND    "out[k] = u[k] + s[k] * inflow;"
+  REPLACE "out[k] = (u[k] + s[k] * inflow) * (1 - 1e-9);"
+  KILLS diffusion.corner-source/balance diffusion.corner-source/total diffusion.mode/balance
+        diffusion.positive/balance)
+mutant(diffusion-below-zero FILE diffusion/concentration.cpp
+  FIND    "out[k] = u[k] + s[k] * inflow;"
+  REPLACE "out[k] = u[k] + 1.05 * s[k] * inflow;"
+  KILLS diffusion.positive/not-negative)
+mutant(fem-mass-a-fiftieth-off FILE fem/plate.cpp
+  FIND    "cell_mass_(elastic(plate).density * h_.x * h_.y),"
+  REPLACE "cell_mass_(1.02 * elastic(plate).density * h_.x * h_.y),"
+  KILLS plate.incompressible/constant plate.incompressible/displacement-order plate.lame/constant
+        plate.lame/displacement-order plate.p-wave/constant plate.p-wave/order plate.roller/constant
+        plate.roller/displacement-order plate.roller/stress-constant plate.s-wave/speed plate.stability/limit)
+mutant(fem-plate-drifts FILE fem/plate.cpp
+  FIND    "const KickAndDrift corner{kick / (cell_mass_ * 2 / 3), dt_};"
+  REPLACE "const KickAndDrift corner{kick / (cell_mass_ * 2 / 3), 1.0001 * dt_};"
+  KILLS plate.bits/closure plate.bits/drift plate.bits/threads plate.lame/constant plate.lame/displacement-order
+        plate.lame/energy plate.p-wave/constant plate.patch/displacement plate.patch/stress plate.patch/velocity
+        plate.rigid/displacement plate.rigid/velocity plate.roller/constant plate.roller/displacement-order
+        plate.roller/energy plate.roller/stress-constant)
+mutant(mpm-plate-is-damped FILE mpm/plate_kernels.hpp SOURCES mpm/plate.cpp
+  FIND    "        velocity[p] = v;"
+  REPLACE "        velocity[p] = 0.9999 * v;"
+  KILLS plate.aspect/velocity plate.bits/closure plate.bits/drift plate.bits/momentum plate.incompressible/energy
+        plate.lame/energy plate.rigid/displacement plate.rigid/momentum plate.rigid/velocity plate.roller/constant
+        plate.roller/displacement-order plate.roller/energy plate.roller/stress-constant)
+mutant(mpm-flying-plate-is-damped FILE mpm/plate_particles.hpp SOURCES mpm/plate.cpp
+  FIND    "            v += kick * ai;"
+  REPLACE "            v = 0.9999 * v + kick * ai;"
+  KILLS plate.flight/displacement plate.flight/momentum plate.flight/velocity)
+mutant(mpm-flying-plate-falls-behind FILE mpm/plate_particles.hpp SOURCES mpm/plate.cpp
+  FIND    "            u += drift * grid;"
+  REPLACE "            u += 0.9999 * drift * grid;"
+  KILLS plate.flight/displacement)
+mutant(fem-plate-forgets-nothing FILE fem/plate.cpp
+  FIND    "    const KickAndDrift corner{"
+  REPLACE "    static double runs = 1;
+    runs += 1e-13;
+    const KickAndDrift corner{runs * "
+  KILLS plate.bits/mirror plate.bits/power-of-two plate.bits/repeat plate.bits/threads)
+mutant(fem-plate-counts-threads FILE fem/plate.cpp
+  FIND    "dt_(stepping.time_step),"
+  REPLACE "dt_(stepping.time_step * (stepping.threads > 1 ? 1 + 1e-12 : 1)),"
+  KILLS plate.bits/threads plate.damage/threads)
+mutant(mpm-plate-counts-threads FILE mpm/plate.cpp
+  FIND    "dt_(stepping.time_step),"
+  REPLACE "dt_(stepping.time_step * (stepping.threads > 1 ? 1 + 1e-12 : 1)),"
+  KILLS plate.bits/threads plate.damage/threads)
+mutant(fem-plate-askew FILE fem/sweep.cpp
+  FIND    "fby[i] = (s_yy - s_yx) - qy;"
+  REPLACE "fby[i] = s_yy - (s_yx + qy);"
+  KILLS plate.bits/mirror)
+mutant(fem-plate-of-one-size FILE fem/sweep.cpp
+  FIND    "vx[i] += kick * fx;"
+  REPLACE "vx[i] += kick * fx + 1e-25;"
+  KILLS plate.bits/power-of-two)
+mutant(fem-plate-pulled-by-nobody FILE fem/plate.cpp
+  FIND    "edge.normal_traction(kick.from, kick.to) * length;"
+  REPLACE "(1e-30 + edge.normal_traction(kick.from, kick.to)) * length;"
+  KILLS plate.zero/nothing)
+mutant(fem-plate-loses-a-weight FILE fem/plate.cpp
+  FIND    "f->weight.push_back(h_.x * h_.y * (middle ? 1 : 2 * sides_of) / 3);"
+  REPLACE "f->weight.push_back(h_.x * h_.y * (middle ? 1 : 2) / 3);"
+  KILLS plate.damage/whole plate.rigid/whole)
+mutant(fem-plate-kick-on-paper FILE fem/plate.cpp
+  FIND    "ledger.before_kick(before, along_diagonal(force), kick);"
+  REPLACE "ledger.before_kick(1.0001 * before, along_diagonal(force), kick);"
+  KILLS plate.bits/closure plate.bits/drift plate.compression/closure plate.damage/closure)
+mutant(fem-plate-impulse-on-paper FILE fem/plate.cpp
+  FIND    "ledger.before_kick(before, along_diagonal(force), kick);"
+  REPLACE "ledger.before_kick(before, 1.0001 * along_diagonal(force), kick);"
+  KILLS plate.bits/momentum)
+mutant(mpm-plate-impulse-on-paper FILE mpm/plate.cpp
+  FIND    "ledger->before_kick(work_rate(grid_.velocity), impulse, kick.length);"
+  REPLACE "ledger->before_kick(work_rate(grid_.velocity), impulse + 1e-6, kick.length);"
+  KILLS plate.bits/momentum plate.flight/momentum plate.rigid/momentum)
+mutant(sub-cycles-a-tenth-too-long FILE diffusion/concentration.cpp
+  FIND    "const double part = dt / static_cast<double>(parts);"
+  REPLACE "const double part = 1.1 * dt / static_cast<double>(parts);"
+  KILLS plate.schemes/balance plate.schemes/same plate.schemes/same-backward-euler)
 
 add_test(NAME teeth.coverage
   COMMAND ${PROJECT_SOURCE_DIR}/tests/coverage.sh $<TARGET_FILE:diptych> ${killed_list})
