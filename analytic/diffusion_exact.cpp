@@ -10,6 +10,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "analytic/residual.hpp"
+
 namespace diptych::analytic {
 namespace {
 
@@ -41,11 +43,6 @@ double exponential_integral(double x) {
   const int status = gsl_sf_expint_E1_e(x, &result);
   if (status == GSL_EUNDRFLW) return 0;
   return status == GSL_SUCCESS ? result.val : std::nan("");
-}
-
-/// Keeps the larger violation. NaN wins and stays: std::max would lose it.
-void note(double& worst, double violation) {
-  if (!std::isnan(worst) && !(std::abs(violation) <= worst)) worst = std::abs(violation);
 }
 
 /// Central differences of sixth order.

@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "analytic/residual.hpp"
+
 namespace diptych::analytic {
 namespace {
 
@@ -114,11 +116,6 @@ double PlasticImpact::plastic_strain(double t) const {
 double PlasticImpact::plastic_work(double t) const { return 2 * p_.yield_stress * plastic_strain(t); }
 
 namespace {
-
-/// Keeps the larger violation. NaN wins and stays: std::max would lose it.
-void note(double& worst, double violation) {
-  if (!std::isnan(worst) && !(std::abs(violation) <= worst)) worst = std::abs(violation);
-}
 
 /// Knows the parameters only, not the recurrence: only where contact begins, and that nothing but a characteristic that
 /// left the faces a whole number of periods later can be a front.

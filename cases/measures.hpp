@@ -20,6 +20,19 @@ bool asks_for(const Case&, const Leaf&, const std::string& quantity);
 
 std::string status_of(Outcome);
 
+/// What a solver says of its own run.
+template <class Record>
+void take_outcome(const Record& record, reports::Run& run) {
+  run.status = status_of(record.outcome);
+  run.message = record.message;
+  run.steps = record.steps;
+  run.element_steps = record.work.element_steps;
+  run.particle_steps = record.work.particle_steps;
+  run.node_steps = record.work.node_steps;
+  run.bytes = record.work.bytes;
+  run.features = record.features;
+}
+
 /// Energies as parts of the largest energy, momentum as a part of what the mass [kg] with that energy could have.
 void measure_ledger(double mass, const LedgerSums&, reports::Run&);
 

@@ -288,14 +288,7 @@ reports::Run run_plate(const Case& whole, const Leaf& leaf, const Running& runni
   const auto begin = std::chrono::steady_clock::now();
   const PlateRecord record = mechanical(c) ? solve(c, plate, leaf, stepping) : run_diffusion(c, leaf, stepping);
   run.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  run.status = status_of(record.outcome);
-  run.message = record.message;
-  run.steps = record.steps;
-  run.element_steps = record.work.element_steps;
-  run.particle_steps = record.work.particle_steps;
-  run.node_steps = record.work.node_steps;
-  run.bytes = record.work.bytes;
-  run.features = record.features;
+  take_outcome(record, run);
   if (record.outcome != Outcome::completed) return run;
 
   for (std::size_t i = 0; i < record.snapshots.size(); ++i)

@@ -322,14 +322,7 @@ reports::Run run_leaf(const Case& whole, const Leaf& leaf, const Running& runnin
   Record record = solve(scene, leaf, stepping);
   run.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 
-  run.status = status_of(record.outcome);
-  run.message = record.message;
-  run.steps = record.steps;
-  run.element_steps = record.work.element_steps;
-  run.particle_steps = record.work.particle_steps;
-  run.node_steps = record.work.node_steps;
-  run.bytes = record.work.bytes;
-  run.features = record.features;
+  take_outcome(record, run);
   if (record.outcome != Outcome::completed) return run;
 
   const auto taken_at = [&](const std::vector<long>& steps) {

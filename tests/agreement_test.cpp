@@ -1,10 +1,12 @@
 // FEM against MPM where nothing exact is known: runs made by hand, so that each verdict has one reason.
 #include "cases/agreement.hpp"
 
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
-#include <functional>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "cases/case_file.hpp"
 #include "cases/gates.hpp"
@@ -362,31 +364,7 @@ BOOST_AUTO_TEST_CASE(histories_are_as_far_apart_as_their_sizes) {
 
 namespace {
 
-/// The same mesh with time steps that halve, and errors of the given order.
-struct InTime {
-  Case c;
-  std::vector<Run> runs;
-  explicit InTime(double order) : c(parse_case(replaced(), "t.toml")) {
-    for (const int cells : {20, 40}) {
-      for (const double courant : {2.0, 1.0, 0.5, 0.25}) {
-        Run run;
-        run.method = "diffusion";
-        run.cells = cells;
-        run.cell_size = 1.0 / cells;
-        run.courant_asked = run.courant = courant;
-        run.time_step = courant * 1e-3 / cells;
-        run.status = "completed";
-        reports::Sample sample;
-        sample.asked = sample.time = 1;
-        const double error = 0.01 * std::pow(courant, order);
-        sample.errors = {{"concentration", 1, 1, error, error, error, {}, {}, {}}};
-        run.samples = {sample};
-        runs.push_back(run);
-      }
-    }
-  }
-  static std::string replaced() {
-    return R"toml(schema = 1
+const char* const scene = R"toml(schema = 1
 id = "t"
 title = "t"
 claim = "code-verification"
@@ -424,6 +402,29 @@ quantity = "concentration.L2"
 max = 1
 reason = "r"
 )toml";
+
+/// The same mesh with time steps that halve, and errors of the given order.
+struct InTime {
+  Case c;
+  std::vector<Run> runs;
+  explicit InTime(double order) : c(parse_case(scene, "t.toml")) {
+    for (const int cells : {20, 40}) {
+      for (const double courant : {2.0, 1.0, 0.5, 0.25}) {
+        Run run;
+        run.method = "diffusion";
+        run.cells = cells;
+        run.cell_size = 1.0 / cells;
+        run.courant_asked = run.courant = courant;
+        run.time_step = courant * 1e-3 / cells;
+        run.status = "completed";
+        reports::Sample sample;
+        sample.asked = sample.time = 1;
+        const double error = 0.01 * std::pow(courant, order);
+        sample.errors = {{"concentration", 1, 1, error, error, error, {}, {}, {}}};
+        run.samples = {sample};
+        runs.push_back(run);
+      }
+    }
   }
   reports::Gate judged() { return judge(c, c.gates[0], runs); }
 };

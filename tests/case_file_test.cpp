@@ -1386,7 +1386,7 @@ BOOST_AUTO_TEST_CASE(examples_of_the_readme) {
       text += line + "\n";
     }
   }
-  BOOST_TEST(examples == 3);
+  BOOST_TEST(examples == 4);
 }
 
 BOOST_AUTO_TEST_CASE(nearest_names) {
