@@ -112,6 +112,8 @@ Apart of_contours(const std::array<Series, 2>& both, double time, double level) 
 Apart of_histories(const std::array<Series, 2>& both) {
   const auto history = [](const Run& run) {
     if (run.platen.x.empty()) invalid(run.label() + " has no platen");
+    for (const double value : run.platen.y)
+      if (!std::isfinite(value)) invalid(run.label() + ": the platen's displacement is not a finite number");
     return History{run.platen.x, run.platen.y};
   };
   Apart apart;
@@ -133,6 +135,11 @@ void judge(const std::array<Series, 2>& both, const Apart& apart, const GateSpec
     if (std::find(gate.judged.begin(), gate.judged.end(), both[0][k]->cells) == gate.judged.end()) continue;
     if (!(apart.band[k] > 0))
       invalid(fmt::format("{} cells{}: no uncertainty to compare with", both[0][k]->cells, when));
+    if (!(apart.difference[k] > 1e-12 * apart.band[k]))
+      invalid(
+          fmt::format("{} cells{}: the two methods give the same number: one of them twice, or a bound that both "
+                      "have reached?",
+                      both[0][k]->cells, when));
     hold(result,
          {fmt::format("{} cells{}: {:.3g} apart, expected within {:.3g}", both[0][k]->cells, when, apart.difference[k],
                       apart.band[k]),
@@ -142,8 +149,6 @@ void judge(const std::array<Series, 2>& both, const Apart& apart, const GateSpec
   if (judged.size() != gate.judged.size())
     invalid(fmt::format("{} of {} meshes to judge were run", judged.size(), gate.judged.size()));
   if (judged.size() < 2 || !gate.shrinks) return;
-  if (!(judged.front() > 1e-12 * apart.band.front()))
-    invalid("the two methods give the same number: one of them twice, or a bound that both have reached?");
   hold(result, {fmt::format("finest / coarsest difference{}", when), judged.back(), judged.front(), -1, 1,
                 judged.back() / judged.front(), false});
 }

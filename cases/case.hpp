@@ -119,7 +119,8 @@ struct FigureSpec {
   std::string title;  ///< empty: the case's
   /// "profiles" of a field at some times, or "motion": positions over time. Of a plate "contours" of both methods and
   /// their difference, "problem": the scene itself, "history" of the platen, "sweep" of a probe over
-  /// a swept parameter, or "choices": what each variant does.
+  /// a swept parameter, "choices": what each variant does, or
+  /// "agreement": how far the methods are apart and how far they may be.
   std::string kind = "profiles";
   std::string field = "stress";
   std::vector<double> times;          ///< subset of the sample times; empty: all

@@ -187,7 +187,7 @@ Names variants_of(const Case& c) {
 }
 
 Names figure_kinds(const Case& c) {
-  if (c.plate) return {"contours", "problem", "history", "sweep", "choices"};
+  if (c.plate) return {"contours", "problem", "history", "sweep", "choices", "agreement"};
   return {"profiles", "motion"};
 }
 
@@ -498,7 +498,8 @@ void check_plate_gate(Table& t, const GateSpec& gate, const Case& c) {
   const std::string field = gate.quantity.substr(0, gate.quantity.find('.'));
   const PlateExact& e = c.plate->exact;
   if (contains(plate_fields, field) && !contains(plate_invariants, gate.quantity)) {
-    const bool given = e.solution == "none"          ? false
+    const bool given = e.solution.empty()            ? true
+                       : e.solution == "none"        ? false
                        : e.solution == "expressions" ? !(field == "stress"         ? e.stress[0]
                                                          : field == "velocity"     ? e.velocity[0]
                                                          : field == "displacement" ? e.displacement[0]
@@ -510,7 +511,7 @@ void check_plate_gate(Table& t, const GateSpec& gate, const Case& c) {
   }
   if (gate.kind == "constant" && !gate.predict.empty() && gate.predict != "mode")
     t.place("predict").refuse(words(gate.predict) + " on a plate", "\"mode\"");
-  if (gate.predict == "mode" && !contains({"lame-mode", "roller-mode", "p-wave"}, e.solution))
+  if (gate.predict == "mode" && !e.solution.empty() && !contains({"lame-mode", "roller-mode", "p-wave"}, e.solution))
     t.place("predict").refuse("\"mode\" for exact.solution = " + words(e.solution),
                               "with \"lame-mode\", \"roller-mode\" or \"p-wave\"");
   const auto needs = [&](const Names& quantities, bool there, const std::string& what) {

@@ -545,7 +545,7 @@ FigureSpec read_figure(Table& t, const Case& c) {
     good &= among(t.place("particles"), std::vector<std::vector<double>>{figure.particles}, axes.particles,
                   "axes.particles");
   const std::vector<Leaf> runs = leaves(c);
-  if (figure.kind == "problem" || figure.kind == "sweep") return figure;  // of no run, or of many
+  if (contains({"problem", "sweep", "agreement"}, figure.kind)) return figure;  // of no run, or of many
   for (const std::string& method : figure.methods) {
     const Leaf leaf{method, figure.cells, figure.courant_of(method),
                     method.starts_with("mpm") ? figure.particles : std::vector<double>{}, figure.parameters};

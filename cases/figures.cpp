@@ -224,6 +224,7 @@ void add_figures(const Case& whole, reports::Case& result) {
       if (spec.kind == "contours") result.plate_figures.push_back(contour_figure(c, spec, runs));
       if (spec.kind == "history") result.figures.push_back(history_figure(c, spec, runs));
       if (spec.kind == "sweep") result.figures.push_back(sweep_figure(whole, spec, runs));
+      if (spec.kind == "agreement") add_agreement(c, spec, result);
       if (spec.kind == "choices") add_choices(c, spec, runs, result);
       continue;
     }

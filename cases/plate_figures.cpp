@@ -271,6 +271,35 @@ reports::Figure sweep_figure(const Case& c, const FigureSpec& spec, const std::v
   return figure;
 }
 
+void add_agreement(const Case& c, const FigureSpec& spec, reports::Case& result) {
+  reports::ChoicesPage page;
+  page.title = title_of(c, spec);
+  page.first = "Quantity, mesh and time";
+  page.intro = {
+      c.why,
+      "Where there is no exact solution the two methods are held against each other. Each one's uncertainty on a mesh "
+      "is "
+      "found from all of its meshes by the least-squares procedure of Eça and Hoekstra (2014), a band that is "
+      "meant to hold the exact value in 95 of 100 cases; expected is the root of the sum of their squares. Such "
+      "agreement never outranks a gate against an exact solution."};
+  for (const std::string& note : notes_of(c, spec)) page.intro.push_back(note + ".");
+  page.columns = {"apart", "expected within", "ratio", "allowed", "verdict"};
+  for (const reports::Gate& gate : result.gates) {
+    if (gate.kind != "agreement") continue;
+    for (const reports::Check& check : gate.checks) {
+      const std::string what = check.what.substr(0, check.what.find(':'));
+      page.rows.push_back({fmt::format("{}: {}", gate.id, what),
+                           gate.quantity,
+                           {cell(check.value), check.predicted ? cell(*check.predicted) : "", cell(check.judged),
+                            cell(check.high), check.passed ? "pass" : "FAIL"},
+                           ""});
+    }
+    if (gate.checks.empty())
+      page.rows.push_back({gate.id, gate.message, {"", "", "", "", to_string(gate.verdict)}, ""});
+  }
+  result.pages.emplace_back(spec.id, std::move(page));
+}
+
 void add_choices(const Case& c, const FigureSpec& spec, const std::vector<reports::Run>& runs, reports::Case& result) {
   const double time = (spec.times.empty() ? c.times : spec.times).back(), level = spec.levels.front();
   const std::string symbol = symbol_of(spec.field);
@@ -292,11 +321,11 @@ void add_choices(const Case& c, const FigureSpec& spec, const std::vector<report
   rows.insert(rows.end(), c.variants.begin(), c.variants.end());
   for (const PlateVariant& variant : rows) {
     reports::ChoicesPage::Row row;
-    row.name = variant.id.empty() ? "reference" : variant.id;
+    row.name = variant.id.empty() ? "default set" : variant.id;
     row.description = variant.id.empty() ? spec.choices : variant.says;
     row.reference = variant.id.empty();
     reports::PlateFigure picture = blank(c, spec);
-    picture.id = spec.id + "." + row.name;
+    picture.id = spec.id + "." + (variant.id.empty() ? "reference" : variant.id);
     picture.title = row.name;
     picture.notes.clear();
     picture.columns = 1;

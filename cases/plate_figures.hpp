@@ -16,6 +16,8 @@ reports::ProblemFigure problem_figure(const Case&, const FigureSpec&);
 reports::Figure history_figure(const Case&, const FigureSpec&, const std::vector<reports::Run>&);
 /// A probe at the last of the figure's times over a swept parameter, a panel for each mesh.
 reports::Figure sweep_figure(const Case&, const FigureSpec&, const std::vector<reports::Run>&);
+/// How far the methods are apart and how far they may be, as the gates of kind "agreement" have found: a page.
+void add_agreement(const Case&, const FigureSpec&, reports::Case&);
 /// What each variant does to the contour: a page, and a picture for each of its rows.
 void add_choices(const Case&, const FigureSpec&, const std::vector<reports::Run>&, reports::Case&);
 

@@ -209,7 +209,8 @@ void read_plate_load(Table& t, Case& c) {
   SideLoad load;
   const std::string at = t.need("at", one_of(sides));
   load.side = side_of(at);
-  load.shear = t.get("direction", one_of({"normal", "shear"})) == "shear";
+  const std::string direction = t.get("direction", one_of({"normal", "shear"}));
+  load.shear = direction == "shear";
   load.history = t.need("history", one_of({"step", "ramp", "impulse", "expression"}));
   const Place traction = t.place("traction");
   if (load.history == "expression") {
@@ -224,7 +225,7 @@ void read_plate_load(Table& t, Case& c) {
   if (t.applies("rise", "history", load.history, {"ramp"})) load.rise = seconds(t, "rise", positive(), true);
   if (t.applies("duration", "history", load.history, {"impulse"}))
     load.duration = seconds(t, "duration", positive(), true);
-  if (at.empty()) return;
+  if (at.empty() || (t.has("direction") && direction.empty())) return;
   using Support = Edge::Support;
   const Support support = c.plate->supports[static_cast<std::size_t>(load.side)];
   const bool held = support == Support::fixed || support == Support::driven ||
@@ -264,6 +265,12 @@ void read_plate_exact(Table& t, Case& c) {
   if (of("velocity", {"expressions"})) exact.velocity = read_components<2>(t, "velocity", xyt, c);
   if (of("stress", {"expressions"})) exact.stress = read_components<3>(t, "stress", xyt, c);
   if (of("concentration", {"expressions"})) exact.concentration = read_formula(t, "concentration", xyt, c);
+  if (exact.solution == "expressions" && !t.has("displacement") && !t.has("velocity") && !t.has("stress") &&
+      !t.has("concentration"))
+    t.place("solution")
+        .say(
+            "found \"expressions\" without one; allowed: at least one of the keys displacement, velocity, stress, "
+            "concentration");
   if (of("core", {"corner-source", "expressions"}))
     exact.core = exact.solution == "corner-source" ? t.need("core", positive()) : t.get("core", positive(), 0);
   using Support = Edge::Support;
@@ -275,7 +282,8 @@ void read_plate_exact(Table& t, Case& c) {
     t.place("solution").refuse("\"lame-mode\" of a plate that is held", "with four free sides");
   if ((exact.solution == "roller-mode" || exact.solution == "p-wave") && !all_are(Support::roller))
     t.place("solution").refuse(words(exact.solution) + " of a plate held otherwise", "with four sides on rollers");
-  const bool square = std::abs(c.plate->width - c.plate->height) <= 1e-12 * c.plate->width;
+  const bool square = !(c.plate->width > 0 && c.plate->height > 0) ||
+                      std::abs(c.plate->width - c.plate->height) <= 1e-12 * c.plate->width;
   if (!square && (exact.solution == "lame-mode" || exact.solution == "roller-mode"))
     t.place("solution").refuse(words(exact.solution) + " of a rectangle", "on a square: width = height");
   if (exact.solution == "corner-source" && c.plate->diffusion && c.plate->diffusion->corner_rate == 0)
@@ -307,6 +315,11 @@ void read_scene(Table& file, Case& c) {
   }
   file.maybe_table("initial", [&](Table& t) { read_plate_initial(t, c); });
   file.maybe_table("exact", [&](Table& t) { read_plate_exact(t, c); });
+  const bool mode = contains({"lame-mode", "roller-mode", "p-wave", "s-wave"}, c.plate->exact.solution);
+  for (const char* key : {"initial", "load", "body_force"})
+    if (mode && file.has(key))
+      file.place(key).say("found beside " + words(c.plate->exact.solution) +
+                          ", which sets its own start and is not loaded; allowed: without");
 }
 
 /// The value at keys[from], keys[from + 1], ... of a tree of tables, made where it is missing.
@@ -326,16 +339,16 @@ void put(Node& node, const Names& keys, std::size_t from, const Node& value, Pos
   put(one->value, keys, from + 1, value, at);
 }
 
-void take(Node& node, const Names& keys, std::size_t from) {
+/// Whether it was there.
+bool take(Node& node, const Names& keys, std::size_t from) {
   auto* entries = std::get_if<Node::Entries>(&node.value);
-  if (!entries) return;
+  if (!entries) return false;
   const auto one =
       std::find_if(entries->begin(), entries->end(), [&](const Node::Entry& e) { return e.key == keys[from]; });
-  if (one == entries->end()) return;
-  if (from + 1 == keys.size())
-    entries->erase(one);
-  else
-    take(one->value, keys, from + 1);
+  if (one == entries->end()) return false;
+  if (from + 1 < keys.size()) return take(one->value, keys, from + 1);
+  entries->erase(one);
+  return true;
 }
 
 Names split_key(const std::string& key) {
@@ -362,7 +375,8 @@ void read_variant(Table& t, Table& file, Case& c) {
     return false;
   };
   for (const std::string& key : t.get("without", set_of(text())))
-    if (known(t.place("without"), key)) take(scene, split_key(key), 0);
+    if (known(t.place("without"), key) && !take(scene, split_key(key), 0))
+      t.place("without").refuse(words(key) + ", which the scene lacks", "keys that it has");
   t.maybe_table("set", [&](Table& s) {
     for (const auto& entry : s.entries()) {
       if (known(s.place(entry.key), entry.key)) put(scene, split_key(entry.key), 0, entry.value, entry.at);
@@ -404,7 +418,8 @@ PlateProbe read_plate_probe(Table& t, const Case& c) {
     if (name.find('-') != name.npos && !name.starts_with("acoustic")) at_a_place.push_back(name);
   if (of("at", at_a_place)) {
     const auto at = t.must("at", list_of(not_negative())).value_or(std::vector<double>{0, 0});
-    if (at.size() != 2 || at[0] > c.plate->width || at[1] > c.plate->height) {
+    const bool known = c.plate->width > 0 && c.plate->height > 0;  // reported already
+    if (at.size() != 2 || (known && (at[0] > c.plate->width || at[1] > c.plate->height))) {
       t.place("at").refuse(words(at), "[x, y] in the plate [m]");
     } else {
       probe.x = at[0];
@@ -437,20 +452,15 @@ void check_plate_features(const Place& place, const Case& c) {
                 ", which nothing in the scene switches on; allowed: exactly the features in use");
 }
 
-/// Meshes whose cells have the aspect asked for but for rounding to whole numbers, and runs that end.
+/// Meshes that fit into memory.
 void check_meshes(const Place& place, const Case& c) {
   if (!(c.plate->width > 0) || !(c.plate->height > 0)) return;
   constexpr double most = 1e8;
   for (const int cells : all_axes(c).cells) {
-    const Cells n = cells_of(*c.plate, cells);
-    const double aspect = c.plate->height / n.y / (c.plate->width / n.x);
-    if (n.y > 1 && std::abs(aspect / c.plate->cell_aspect - 1) > 0.5)
-      place.say(
-          fmt::format("found {} cells across, which makes {} × {} cells of aspect {:g}; allowed: numbers that "
-                      "come near plate.cell_aspect = {:g}",
-                      cells, n.x, n.y, aspect, c.plate->cell_aspect));
-    if (static_cast<double>(n.x) * n.y > most)
-      place.say(fmt::format("found {} × {} cells; allowed: at most {:g}", n.x, n.y, most));
+    const double up = c.plate->height * cells / (c.plate->width * c.plate->cell_aspect);
+    if (!(up * cells <= most)) {  // before it is made a whole number
+      place.say(fmt::format("found {} × {:g} cells; allowed: at most {:g}", cells, up, most));
+    }
   }
 }
 
@@ -473,10 +483,21 @@ void check_mpm(const AxesBlock& block, const Case& c) {
         "rollers and fixed ones: the others stand on the grid, which the particles leave");
 }
 
+/// Expressions are tried at the sample times, which are read, and found wrong, only after the scene.
+void peek_at_times(Table& file, Case& c) {
+  const Node* sample = file.place("sample").node;
+  if (!sample || !sample->as<Node::Entries>()) return;
+  std::vector<Mistake> unheard;
+  Table whole({&unheard, sample, sample->at, ""}, "");
+  c.time_unit = "s";
+  whole.maybe_table("times", [&](Table& t) { c.times = t.get("at", list_of(positive())); });
+}
+
 }  // namespace
 
 void read_plate_case(Table& file, Case& c) {
   std::size_t before = file.mistakes();
+  peek_at_times(file, c);
   read_scene(file, c);
   const bool scene_is_read = file.mistakes() == before;
   file.table("model", [&](Table& t) {

@@ -12,6 +12,7 @@
 #include "analytic/plane_discrete.hpp"
 #include "analytic/plane_modes.hpp"
 #include "cases/measures.hpp"
+#include "cases/messages.hpp"
 #include "cases/plate_build.hpp"
 #include "cases/plate_measures.hpp"
 #include "diffusion/concentration.hpp"
@@ -228,9 +229,14 @@ TimeStep step_of(const Case& c, const Leaf& leaf) {
   if (!mechanical(c)) {
     const DiffusionScene scene = make_diffusion(c);
     double largest = 0;
+    const auto checked = [&](double d) {
+      if (d >= 0) return d;
+      throw InputError(fmt::format("{}: diffusion.diffusivity: found {:g} at the middle of some cell; allowed: >= 0",
+                                   c.path.string(), d));
+    };
     for (int j = 0; j < grid.ny; ++j)
       for (int i = 0; i < grid.nx; ++i)
-        largest = std::max(largest, scene.diffusivity((i + 0.5) * grid.hx, (j + 0.5) * grid.hy));
+        largest = std::max(largest, checked(scene.diffusivity((i + 0.5) * grid.hx, (j + 0.5) * grid.hy)));
     const bool explicit_ = spec.diffusion->scheme == diffusion::Scheme::forward_euler;
     const double unit = largest > 0 ? h * h / largest : c.times.back();
     return {leaf.courant * unit,

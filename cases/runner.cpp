@@ -373,6 +373,10 @@ void refuse_unstable(const Case& c) {
   if (c.allow_unstable) return;
   for (const Leaf& leaf : leaves(c)) {
     const TimeStep step = c.plate ? step_of(with_parameters(c, leaf), leaf) : bar_step(c, leaf);
+    constexpr double most = 1e12;
+    if (c.plate && !(c.times.back() / step.asked <= most))
+      throw InputError(fmt::format("{}: axes.courant: {} needs {:g} steps; allowed: at most {:g} steps",
+                                   c.path.string(), leaf.courant, c.times.back() / step.asked, most));
     if (step.asked <= step.limit * (1 + round_off)) continue;
     throw InputError(fmt::format(
         "{}: axes.courant: {} for {} with {} cells is a time step of {:.6g}, above the limit {:.6g} (Courant {:.6g}); "

@@ -219,7 +219,7 @@ void Table::each(const std::string& key, const Read& read) {
   if (!list) here.refuse_value("[[" + key + "]] in double brackets, or a list of tables");
   for (std::size_t i = 0; list && i < list->size(); ++i) {
     Place entry = here.entry(i);
-    entry.label = fmt::format("{} {}", key, i + 1);
+    entry.label = fmt::format("{}{} {}", prefix_, key, i + 1);
     if (!entry.node->as<Node::Entries>()) {
       entry.refuse_value("a table of keys");
       continue;

@@ -141,7 +141,7 @@ std::string choices_html(const ChoicesPage& page) {
   const auto column = [&](const std::string& text, const char* kind) {
     add(top, "th", text.empty() ? "–" : text, kind).append_attribute("scope") = "col";
   };
-  column("Choice", nullptr);
+  column(page.first, nullptr);
   for (std::size_t i = 0; i < page.columns.size(); ++i)
     column(page.columns[i], numbers_in(page, i) ? "number" : nullptr);
   if (pictures) column("Contour", nullptr);

@@ -10,6 +10,7 @@ namespace diptych::reports {
 struct ChoicesPage {
   std::string title;
   std::vector<std::string> intro;    ///< paragraphs
+  std::string first = "Choice";      ///< head of the rows' names
   std::vector<std::string> columns;  ///< heads of the values, after the choice and before the picture
   struct Row {
     std::string name, description;

@@ -528,7 +528,8 @@ mutant(plate-shear-a-hundredth-off FILE material/plane.hpp SOURCES fem/plate.cpp
 mutant(plate-mpm-swapped-gradient FILE mpm/plate_kernels.hpp SOURCES mpm/plate.cpp
   FIND    "strain.yy[p] += near[a] * yy_left + far[a] * yy_right;"
   REPLACE "strain.yy[p] += near[a] * xy_left + far[a] * xy_right;"
-  KILLS plate.patch/stress plate.patch/velocity plate.rigid/displacement plate.rigid/velocity)
+  KILLS plate.patch/stress plate.patch/velocity plate.pic/stress plate.pic/velocity plate.rigid/displacement
+        plate.rigid/velocity)
 mutant(plate-fem-swapped-gradient FILE fem/cell.hpp SOURCES fem/plate.cpp
   FIND    "(along_x[1] / h.x + along_y[0] / h.y) / 2"
   REPLACE "(along_x[0] / h.x + along_y[1] / h.y) / 2"
