@@ -527,7 +527,7 @@ mutant(plate-shear-a-hundredth-off FILE material/plane.hpp SOURCES fem/plate.cpp
         plate.lame/displacement-order plate.patch/stress)
 mutant(plate-mpm-swapped-gradient FILE mpm/plate_kernels.hpp SOURCES mpm/plate.cpp
   FIND    "strain.yy[p] += near[a] * yy_left + far[a] * yy_right;"
-  REPLACE "strain.yy[p] += near[a] * xy_left + far[a] * xy_right;"
+  REPLACE "strain.yy[p] += near[a] * xy_left + far[a] * xy_right + 0 * (yy_left + yy_right);"
   KILLS plate.patch/stress plate.patch/velocity plate.pic/stress plate.pic/velocity plate.rigid/displacement
         plate.rigid/velocity)
 mutant(plate-fem-swapped-gradient FILE fem/cell.hpp SOURCES fem/plate.cpp
@@ -644,7 +644,7 @@ mutant(fem-plate-pulled-by-nobody FILE fem/plate.cpp
   KILLS plate.zero/nothing)
 mutant(fem-plate-loses-a-weight FILE fem/plate.cpp
   FIND    "f->weight.push_back(h_.x * h_.y * (middle ? 1 : 2 * sides_of) / 3);"
-  REPLACE "f->weight.push_back(h_.x * h_.y * (middle ? 1 : 2) / 3);"
+  REPLACE "f->weight.push_back(h_.x * h_.y * (middle ? 1 : 1.9 * sides_of) / 3);"
   KILLS plate.damage/whole plate.rigid/whole)
 mutant(fem-plate-kick-on-paper FILE fem/plate.cpp
   FIND    "ledger.before_kick(before, along_diagonal(force), kick);"

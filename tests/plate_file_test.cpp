@@ -992,8 +992,11 @@ BOOST_AUTO_TEST_CASE(features_are_exactly_those_in_use) {
     text.erase(text.find(feature, text.find("features = ")), feature.size());
     expect_at(text, "features = ", {"model.features", "missing " + name, key});
   }
-  expect_at(replaced(elastic_mode, "[model]", "[body_force]\nacceleration = [\"0\", \"1\"]\n[model]"),
-            "features = ", {"missing \"body-force\"", "[body_force]"});
+  expect_at(replaced(plain, ", \"body-force\"]", "]"), "features = ", {"missing \"body-force\"", "[body_force]"});
+  // A mode sets its own start.
+  expect_at(replaced(elastic_mode, "features = [\"elastic\"]\n",
+                     "features = [\"body-force\", \"elastic\"]\n[body_force]\nacceleration = [\"0\", \"1\"]\n"),
+            "[body_force]", {"body_force", "sets its own start"});
   // What a variant switches on is not declared.
   BOOST_TEST((plate_features(with_parameters(parse_case(whole, "plate.toml"), {})).size() == 6u));
 }
