@@ -528,8 +528,7 @@ mutant(plate-shear-a-hundredth-off FILE material/plane.hpp SOURCES fem/plate.cpp
 mutant(plate-mpm-swapped-gradient FILE mpm/plate_kernels.hpp SOURCES mpm/plate.cpp
   FIND    "strain.yy[p] += near[a] * yy_left + far[a] * yy_right;"
   REPLACE "strain.yy[p] += near[a] * xy_left + far[a] * xy_right + 0 * (yy_left + yy_right);"
-  KILLS plate.patch/stress plate.patch/velocity plate.pic/stress plate.pic/velocity plate.rigid/displacement
-        plate.rigid/velocity)
+  KILLS plate.patch/stress plate.pic/stress plate.rigid/displacement plate.rigid/velocity)
 mutant(plate-fem-swapped-gradient FILE fem/cell.hpp SOURCES fem/plate.cpp
   FIND    "(along_x[1] / h.x + along_y[0] / h.y) / 2"
   REPLACE "(along_x[0] / h.x + along_y[1] / h.y) / 2"
@@ -605,7 +604,7 @@ mutant(fem-plate-drifts FILE fem/plate.cpp
 mutant(mpm-plate-is-damped FILE mpm/plate_kernels.hpp SOURCES mpm/plate.cpp
   FIND    "        velocity[p] = v;"
   REPLACE "        velocity[p] = 0.9999 * v;"
-  KILLS plate.aspect/velocity plate.bits/closure plate.bits/drift plate.bits/momentum plate.incompressible/energy
+  KILLS plate.pic/velocity plate.aspect/velocity plate.bits/closure plate.bits/drift plate.bits/momentum plate.incompressible/energy
         plate.lame/energy plate.rigid/displacement plate.rigid/momentum plate.rigid/velocity plate.roller/constant
         plate.roller/displacement-order plate.roller/energy plate.roller/stress-constant)
 mutant(mpm-flying-plate-is-damped FILE mpm/plate_particles.hpp SOURCES mpm/plate.cpp
