@@ -572,7 +572,7 @@ mutant(corner-source-without-its-quarter FILE cases/plate_runner.cpp
 mutant(diffusion-a-hundredth-off FILE diffusion/concentration.cpp
   FIND    "const double across = grid.hy / (2 * grid.hx), up"
   REPLACE "const double across = 1.01 * grid.hy / (2 * grid.hx), up"
-  KILLS diffusion.corner-source/error diffusion.corner-source/order diffusion.mode/order diffusion.order-four/error
+  KILLS diffusion.green/order diffusion.corner-source/error diffusion.corner-source/order diffusion.mode/order diffusion.order-four/error
         diffusion.order-four/order diffusion.time/rkl2 diffusion.time/second diffusion.variable/error
         diffusion.variable/order)
 mutant(diffusivity-of-one-side FILE diffusion/concentration.cpp
@@ -582,7 +582,7 @@ mutant(diffusivity-of-one-side FILE diffusion/concentration.cpp
 mutant(diffusion-leaks FILE diffusion/concentration.cpp
   FIND    "out[k] = u[k] + s[k] * inflow;"
   REPLACE "out[k] = (u[k] + s[k] * inflow) * (1 - 1e-9);"
-  KILLS diffusion.corner-source/balance diffusion.corner-source/total diffusion.mode/balance
+  KILLS diffusion.green/balance diffusion.green/amount diffusion.corner-source/balance diffusion.corner-source/total diffusion.mode/balance
         diffusion.positive/balance)
 mutant(diffusion-below-zero FILE diffusion/concentration.cpp
   FIND    "out[k] = u[k] + s[k] * inflow;"
