@@ -179,6 +179,8 @@ void measure_against_forward_euler(const Case& c, const Leaf& leaf, const Plate&
                                    const PlateRecord& record, reports::Run& run) {
   const char* quantity = "cross.forward-euler";
   if (!asks_for(c, leaf, quantity)) return;
+  // It would be compared with itself: no measure, and a gate on it is INVALID.
+  if (c.plate->evolution->diffusion->scheme == diffusion::Scheme::forward_euler) return;
   Case other = c;
   other.plate->evolution->diffusion->scheme = diffusion::Scheme::forward_euler;
   const long parts = static_cast<long>(std::ceil(stepping.time_step / step_of(other, leaf).asked));
