@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <boost/timer/progress_display.hpp>
 #include <cstdio>
 #include <iostream>
@@ -313,17 +312,15 @@ void show_runs(const Case& c) {
 void show_plate(const Case& c) {
   fmt::print("{}: {}\n  file       {}\n  claim      {}\n  why        {}\n  plate      {}\n", c.id, c.title,
              c.path.string(), c.claim, c.why, words_of(*c.plate));
-  const std::array<const char*, 4> sides{"left", "right", "bottom", "top"};
-  const std::array<const char*, 5> supports{"free", "roller", "fixed", "driven", "platen"};
   if (c.plate->material) {
     fmt::print("  supports  ");
     for (std::size_t side = 0; side < 4; ++side)
-      fmt::print(" {} {}{}", sides[side], supports[static_cast<std::size_t>(c.plate->supports[side])],
+      fmt::print(" {} {}{}", side_names[side], support_names[static_cast<std::size_t>(c.plate->supports[side])],
                  side < 3 ? "," : "\n");
   }
   for (const SideLoad& load : c.plate->loads)
     fmt::print("  load       {} {} on the {} side, traction {}{}\n", load.history, load.shear ? "shear" : "normal",
-               sides[static_cast<std::size_t>(load.side)], load.traction,
+               side_names[static_cast<std::size_t>(load.side)], load.traction,
                load.history == "ramp" ? fmt::format(", over {:g} s", load.rise) : "");
   for (const auto& [feature, key] : plate_features(c)) fmt::print("  uses       {}: {}\n", feature, key);
   for (const auto& [name, value] : c.parameters) fmt::print("  parameter  {} = {:g}\n", name, value);

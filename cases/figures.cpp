@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cases/build.hpp"
+#include "cases/figure_runs.hpp"
 #include "cases/leaf.hpp"
 #include "cases/plate_figures.hpp"
 
@@ -19,22 +20,6 @@ std::string unit_of(const Case& c, const std::string& field) {
 
 std::string symbol_of(const std::string& field) { return field == "stress" ? "σ" : field == "velocity" ? "v" : "u"; }
 
-std::string upper(std::string s) {
-  std::transform(s.begin(), s.end(), s.begin(), [](unsigned char ch) { return static_cast<char>(std::toupper(ch)); });
-  return s;
-}
-
-const reports::Run* find(const std::vector<reports::Run>& runs, const FigureSpec& spec, const std::string& method) {
-  for (const auto& run : runs) {
-    if (run.method == method && run.cells == spec.cells && run.courant_asked == spec.courant_of(method) &&
-        run.parameters == parameters_label(spec.parameters) && run.status == "completed" &&
-        (method == "fem" || run.particles == particles_label(spec.particles))) {
-      return &run;
-    }
-  }
-  return nullptr;
-}
-
 void widen(reports::Figure& figure, const reports::Curve& curve) {
   for (const double y : curve.y) {
     if (!std::isfinite(y)) continue;
@@ -44,9 +29,6 @@ void widen(reports::Figure& figure, const reports::Curve& curve) {
 }
 
 std::string length_unit(const Case& c) { return c.units == "paper" ? "paper's units" : "m"; }
-
-std::string name_of(const std::string& method) { return method == "fem" ? "FEM" : "MPM, " + upper(method.substr(4)); }
-std::string kind_of(const std::string& method) { return method == "fem" ? "fem" : "mpm"; }
 
 bool same(const BarSpec& a, const BarSpec& b) { return words_of(a) == words_of(b); }
 
@@ -59,7 +41,7 @@ std::vector<std::string> notes_of(const Case& c, const FigureSpec& spec) {
   std::string courant = "Courant number";
   if (spec.courants.empty()) courant += fmt::format(" {:g}", spec.courant);
   for (const auto& [method, number] : spec.courants)
-    courant += fmt::format("{} {:g} ({})", courant.ends_with("r") ? "" : ",", number, name_of(method));
+    courant += fmt::format("{} {:g} ({})", courant.ends_with("r") ? "" : ",", number, name_of_method(method));
   const bool several = c.bars.size() > 1;
   const std::string bars =
       !several ? words_of(c.first())
@@ -120,14 +102,14 @@ void add_motion(const Case& c, const FigureSpec& spec, const std::vector<reports
     figure.notes.push_back(fmt::format("Displacements are drawn {:g} times as large.", spec.magnify));
   reports::Figure::Panel whole;
   for (const std::string& method : spec.methods) {
-    const reports::Run* run = find(runs, spec, method);
+    const reports::Run* run = find_run(runs, spec, method);
     if (!run) {
       figure.notes.push_back(method + " is missing: its run did not complete");
       continue;
     }
     if (whole.series.empty() && !run->exact_paths.x.empty())
       whole.series.push_back({"exact", "exact", in_units(run->exact_paths, run->path_origins)});
-    whole.series.push_back({name_of(method), kind_of(method), in_units(run->paths, run->path_origins)});
+    whole.series.push_back({name_of_method(method), kind_of_method(method), in_units(run->paths, run->path_origins)});
   }
   bool any = false;
   for (const auto& series : whole.series) {
@@ -171,7 +153,7 @@ void add_profiles(const Case& c, const FigureSpec& spec, const std::vector<repor
     panel.label = fmt::format("t = {:g} {}", times[i], c.time_unit);
     if (i < spec.captions.size()) panel.label += ": " + spec.captions[i];
     for (const std::string& method : spec.methods) {
-      const reports::Run* run = find(runs, spec, method);
+      const reports::Run* run = find_run(runs, spec, method);
       if (!run) {
         figure.notes.push_back(method + " is missing: its run did not complete");
         continue;
@@ -181,7 +163,7 @@ void add_profiles(const Case& c, const FigureSpec& spec, const std::vector<repor
         if (panel.series.empty() && sample.exact_curves.count(spec.field)) {
           panel.series.push_back({"exact", "exact", sample.exact_curves.at(spec.field)});
         }
-        panel.series.push_back({name_of(method), kind_of(method), sample.curves.at(spec.field)});
+        panel.series.push_back({name_of_method(method), kind_of_method(method), sample.curves.at(spec.field)});
       }
     }
     for (const auto& series : panel.series) widen(figure, series.curve);
@@ -230,8 +212,7 @@ void add_figures(const Case& whole, reports::Case& result) {
     }
     reports::Figure figure;
     figure.id = spec.id;
-    const std::string title = spec.title.empty() ? c.title : spec.title;
-    figure.title = spec.id.rfind("fig", 0) == 0 ? fmt::format("Fig. {}. {}", spec.id.substr(3), title) : title;
+    figure.title = title_of(c, spec);
     figure.notes = notes_of(c, spec);
     if (spec.kind == "motion") {
       add_motion(c, spec, runs, figure);

@@ -7,6 +7,19 @@
 
 namespace diptych::cases {
 
+Stepping plan_steps(double end, double asked, const std::vector<double>& times, bool ledger) {
+  Stepping stepping;
+  stepping.steps = std::max(1L, static_cast<long>(std::ceil(end / asked * (1 - round_off))));
+  stepping.time_step = end / static_cast<double>(stepping.steps);
+  for (const double time : times) stepping.sample_after.push_back(std::max(1L, std::lround(time / stepping.time_step)));
+  stepping.books = ledger ? Books::sums : Books::off;
+  return stepping;
+}
+
+mpm::Scheme scheme_of(const std::string& method) {
+  return method == "mpm-usf" ? mpm::Scheme::usf : method == "mpm-usl" ? mpm::Scheme::usl : mpm::Scheme::musl;
+}
+
 bool asks_for(const Case& c, const Leaf& leaf, const std::string& quantity) {
   return std::any_of(c.gates.begin(), c.gates.end(),
                      [&](const GateSpec& gate) { return gate.quantity == quantity && matches(gate.where, leaf); });
@@ -22,7 +35,11 @@ std::string status_of(Outcome outcome) {
   return "error";
 }
 
-void measure_ledger(double mass, const LedgerSums& sums, reports::Run& run) {
+void measure_ledger(double mass, const LedgerSums& sums, const std::vector<LedgerLine>& lines, reports::Run& run) {
+  for (const LedgerLine& line : lines) {
+    run.ledger.push_back({line.time, line.kinetic, line.strain, line.dissipated, line.viscous, line.contact,
+                          line.scheme, line.work, line.lost, line.momentum, line.impulse});
+  }
   run.finite = run.finite && sums.finite;
   if (!sums.finite || !(sums.held > 0)) return;  // where nothing moved there is no measure, and a gate on it is INVALID
   const auto relative = [](double value, double scale) { return scale > 0 ? value / scale : value; };

@@ -3,10 +3,13 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "cases/case.hpp"
 #include "cases/leaf.hpp"
 #include "material/record.hpp"
+#include "material/scene.hpp"
+#include "mpm/bar.hpp"
 #include "reports/results.hpp"
 
 namespace diptych::cases {
@@ -14,6 +17,13 @@ namespace diptych::cases {
 /// A run's number of steps is rounded up, never to nearest: at the limit one step fewer is unstable. The slack lets a
 /// Courant number that fits the time exactly but for round-off take the steps it asks for.
 constexpr double round_off = 1e-12;
+
+/// Steps of equal length, none longer than the one asked for, that meet the end; sampled at the steps nearest to the
+/// times [s].
+Stepping plan_steps(double end, double asked, const std::vector<double>& times, bool ledger);
+
+/// Of "mpm-usf", "mpm-usl" or "mpm-musl".
+mpm::Scheme scheme_of(const std::string& method);
 
 /// Whether some gate judges this quantity of this run.
 bool asks_for(const Case&, const Leaf&, const std::string& quantity);
@@ -33,8 +43,9 @@ void take_outcome(const Record& record, reports::Run& run) {
   run.features = record.features;
 }
 
-/// Energies as parts of the largest energy, momentum as a part of what the mass [kg] with that energy could have.
-void measure_ledger(double mass, const LedgerSums&, reports::Run&);
+/// Energies as parts of the largest energy, momentum as a part of what the mass [kg] with that energy could have; and
+/// the lines, where they were kept.
+void measure_ledger(double mass, const LedgerSums&, const std::vector<LedgerLine>&, reports::Run&);
 
 /// Largest Courant number, to one part in a thousand, at which runs stay bounded. The bracket opens around the
 /// predicted limit until one end is stable and the other is not, and closes without looking at the prediction again.

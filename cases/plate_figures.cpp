@@ -5,33 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cases/figure_runs.hpp"
 #include "cases/leaf.hpp"
 #include "cases/plate_build.hpp"
 
 namespace diptych::cases {
 namespace {
 
-std::string kind_of(const std::string& method) { return method == "fem" ? "fem" : "mpm"; }
-
-std::string name_of(const std::string& method) {
-  std::string name = method.starts_with("mpm") ? "MPM, " + method.substr(4) : "FEM";
-  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char ch) { return std::toupper(ch); });
-  return name;
-}
-
 std::string symbol_of(const std::string& field) { return field == "damage" ? "D" : "C_d"; }
-
-const reports::Run* find(const std::vector<reports::Run>& runs, const FigureSpec& spec, const std::string& method,
-                         const std::string& variant) {
-  const Leaf wanted{method, spec.cells, 0, {}, spec.parameters, variant};
-  for (const auto& run : runs) {
-    if (run.method == method && run.cells == spec.cells && run.courant_asked == spec.courant_of(method) &&
-        run.parameters == parameters_label(wanted) && run.status == "completed" &&
-        (method == "fem" || run.particles == particles_label(spec.particles)))
-      return &run;
-  }
-  return nullptr;
-}
 
 const reports::PlateFields* fields_at(const reports::Run* run, double time) {
   if (run)
@@ -42,13 +23,8 @@ const reports::PlateFields* fields_at(const reports::Run* run, double time) {
 
 std::string in_ms(double seconds) { return fmt::format("t = {:g} ms", seconds * 1e3); }
 
-std::string title_of(const Case& c, const FigureSpec& spec) {
-  const std::string title = spec.title.empty() ? c.title : spec.title;
-  return spec.id.rfind("fig", 0) == 0 ? fmt::format("Fig. {}. {}", spec.id.substr(3), title) : title;
-}
-
 std::string load_words(const SideLoad& load) {
-  std::string text = load.history == "expression" ? load.traction : load.traction;
+  std::string text = load.traction;
   try {
     text = fmt::format("{:g} MPa", std::stod(load.traction) / 1e6);
   } catch (const std::exception&) {  // an expression stands for itself
@@ -128,11 +104,11 @@ reports::PlateFigure contour_figure(const Case& c, const FigureSpec& spec, const
     std::vector<NodalMap> maps;
     for (const std::string& method : spec.methods) {
       reports::PlateFigure::Panel panel;
-      panel.label = fmt::format("{}, {}", name_of(method), in_ms(time));
-      if (const auto* fields = fields_at(find(runs, spec, method, ""), time)) {
+      panel.label = fmt::format("{}, {}", name_of_method(method), in_ms(time));
+      if (const auto* fields = fields_at(find_run(runs, spec, method), time)) {
         maps.push_back(map_of(*fields, spec.field));
         const NodalMap& map = maps.back();
-        add_contours(map, spec.levels, kind_of(method), panel);
+        add_contours(map, spec.levels, kind_of_method(method), panel);
         panel.map = {map.nx, map.ny, map.value, 0, 1, symbol, false};
         for (const double value : map.value) largest = std::max(largest, value);
       } else {
@@ -147,7 +123,7 @@ reports::PlateFigure contour_figure(const Case& c, const FigureSpec& spec, const
       const NodalMap less = difference(maps[0], maps[1]);
       panel.map = {less.nx, less.ny, less.value, -1, 1, fmt::format("{} of FEM less MPM", symbol), true};
       for (const double value : less.value) apart = std::max(apart, std::abs(value));
-      for (std::size_t m = 0; m < 2; ++m) add_contours(maps[m], spec.levels, kind_of(spec.methods[m]), panel);
+      for (std::size_t m = 0; m < 2; ++m) add_contours(maps[m], spec.levels, kind_of_method(spec.methods[m]), panel);
       for (auto& one : panel.contours) one.label.clear();
     }
     figure.panels.push_back(std::move(panel));
@@ -177,11 +153,7 @@ reports::ProblemFigure problem_figure(const Case& c, const FigureSpec& spec) {
   for (std::size_t side = 0; side < 4; ++side) {
     const Support support = c.plate->supports[side];
     auto& drawn = figure.sides[side];
-    drawn.support = support == Support::roller   ? "roller"
-                    : support == Support::fixed  ? "fixed"
-                    : support == Support::driven ? "driven"
-                    : support == Support::platen ? "platen"
-                                                 : "free";
+    drawn.support = support_names[static_cast<std::size_t>(support)];
     if (support == Support::platen) drawn.label = "rigid, frictionless platen";
   }
   for (const SideLoad& load : c.plate->loads) {
@@ -208,7 +180,7 @@ reports::Figure history_figure(const Case& c, const FigureSpec& spec, const std:
   figure.y_min = figure.y_max = 0;
   reports::Figure::Panel panel;
   for (const std::string& method : spec.methods) {
-    const reports::Run* run = find(runs, spec, method, "");
+    const reports::Run* run = find_run(runs, spec, method);
     if (!run) {
       figure.notes.push_back(method + " is missing: its run did not complete");
       continue;
@@ -220,7 +192,7 @@ reports::Figure history_figure(const Case& c, const FigureSpec& spec, const std:
       figure.y_min = std::min(figure.y_min, u);
       figure.y_max = std::max(figure.y_max, u);
     }
-    panel.series.push_back({name_of(method), kind_of(method), std::move(curve)});
+    panel.series.push_back({name_of_method(method), kind_of_method(method), std::move(curve)});
   }
   figure.panels.push_back(std::move(panel));
   const double margin = 0.05 * (figure.y_max - figure.y_min);
@@ -255,7 +227,7 @@ reports::Figure sweep_figure(const Case& c, const FigureSpec& spec, const std::v
         one.cells = cells;
         one.parameters[spec.over] = value;
         double y = std::nan("");
-        if (const reports::Run* run = find(runs, one, method, spec.variant))
+        if (const reports::Run* run = find_run(runs, one, method, spec.variant))
           for (const auto& sample : run->samples)
             for (const auto& probe : sample.probes)
               if (sample.asked == time && probe.id == spec.probe) y = probe.value;
@@ -263,7 +235,7 @@ reports::Figure sweep_figure(const Case& c, const FigureSpec& spec, const std::v
         curve.y.push_back(y);
         if (std::isfinite(y)) figure.y_max = std::max(figure.y_max, y);
       }
-      panel.series.push_back({name_of(method), kind_of(method), std::move(curve)});
+      panel.series.push_back({name_of_method(method), kind_of_method(method), std::move(curve)});
     }
     figure.panels.push_back(std::move(panel));
   }
@@ -333,7 +305,7 @@ void add_choices(const Case& c, const FigureSpec& spec, const std::vector<report
     panel.label = in_ms(time);
     bool any = false;
     for (const std::string& method : spec.methods) {
-      const auto* fields = fields_at(find(runs, spec, method, variant.id), time);
+      const auto* fields = fields_at(find_run(runs, spec, method, variant.id), time);
       if (!fields) {
         row.values.insert(row.values.end(), {"did not complete", "", ""});
         continue;
@@ -343,7 +315,7 @@ void add_choices(const Case& c, const FigureSpec& spec, const std::vector<report
       row.values.push_back(cell(radius_along(map, level, 45)));
       row.values.push_back(cell(area_above(map, level)));
       row.values.push_back(cell(*std::max_element(map.value.begin(), map.value.end())));
-      add_contours(map, spec.levels, kind_of(method), panel);
+      add_contours(map, spec.levels, kind_of_method(method), panel);
     }
     if (any) {
       row.picture = picture.id + ".svg";

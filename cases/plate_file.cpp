@@ -13,10 +13,11 @@
 namespace diptych::cases {
 namespace {
 
-const Names sides{"left", "right", "bottom", "top"};
-
-Side side_of(const std::string& name) {
-  return static_cast<Side>(std::max<std::ptrdiff_t>(0, std::find(sides.begin(), sides.end(), name) - sides.begin()));
+/// The place of a name that one_of has let through; the first one's where it has not.
+template <class Value>
+Value in_order(const std::string& name, const Names& names) {
+  const auto place = std::find(names.begin(), names.end(), name);
+  return place == names.end() ? Value{} : static_cast<Value>(place - names.begin());
 }
 
 /// The value that a name of the list stands for, in the list's order.
@@ -188,12 +189,7 @@ void read_pure_diffusion(Table& t, Case& c) {
 void read_plate_supports(Table& t, Case& c) {
   using Support = Edge::Support;
   for (std::size_t side = 0; side < 4; ++side) {
-    const std::string name = t.need(sides[side], one_of({"free", "roller", "fixed", "driven", "platen"}));
-    c.plate->supports[side] = name == "roller"   ? Support::roller
-                              : name == "fixed"  ? Support::fixed
-                              : name == "driven" ? Support::driven
-                              : name == "platen" ? Support::platen
-                                                 : Support::free;
+    c.plate->supports[side] = in_order<Support>(t.need(side_names[side], one_of(support_names)), support_names);
   }
   const auto& supports = c.plate->supports;
   const bool driven = std::find(supports.begin(), supports.end(), Support::driven) != supports.end();
@@ -207,8 +203,8 @@ void read_plate_supports(Table& t, Case& c) {
 
 void read_plate_load(Table& t, Case& c) {
   SideLoad load;
-  const std::string at = t.need("at", one_of(sides));
-  load.side = side_of(at);
+  const std::string at = t.need("at", one_of(side_names));
+  load.side = in_order<Side>(at, side_names);
   const std::string direction = t.get("direction", one_of({"normal", "shear"}));
   load.shear = direction == "shear";
   load.history = t.need("history", one_of({"step", "ramp", "impulse", "expression"}));

@@ -26,10 +26,6 @@ using analytic::PlaneQuantity;
 
 bool mechanical(const Case& c) { return c.plate->material.has_value(); }
 
-mpm::Scheme scheme_of(const std::string& method) {
-  return method == "mpm-usf" ? mpm::Scheme::usf : method == "mpm-usl" ? mpm::Scheme::usl : mpm::Scheme::musl;
-}
-
 /// Diffusion alone, on the nodes of the cells.
 PlateRecord run_diffusion(const Case& c, const Leaf& leaf, const Stepping& stepping) {
   const PureDiffusion& spec = *c.plate->diffusion;
@@ -49,6 +45,7 @@ PlateRecord run_diffusion(const Case& c, const Leaf& leaf, const Stepping& stepp
   if (scene.initial) at_nodes(field.values(), scene.initial);
   PlateRecord record;
   const double start = field.total();
+  const bool fed_by_something = scene.rate || spec.corner_rate != 0;
   double fed = 0;
   auto next = stepping.sample_after.begin();
   for (long n = 0; n < stepping.steps; ++n) {
@@ -59,7 +56,8 @@ PlateRecord run_diffusion(const Case& c, const Leaf& leaf, const Stepping& stepp
     const double middle = (static_cast<double>(n) + 0.5) * stepping.time_step;
     if (scene.rate) at_nodes(source, [&](double px, double py) { return scene.rate(px, py, middle); });
     if (spec.corner_rate != 0) source[0] = spec.corner_rate / (grid.hx * grid.hy / 4);  // of the corner's quarter
-    for (std::size_t k = 0; k < source.size(); ++k) fed += source[k] * node_area(grid, k) * stepping.time_step;
+    for (std::size_t k = 0; fed_by_something && k < source.size(); ++k)
+      fed += source[k] * node_area(grid, k) * stepping.time_step;
     field.step(diffusivity, source, stepping.time_step);
     record.steps = n + 1;
     if (next != stepping.sample_after.end() && *next == n + 1) {
@@ -67,11 +65,9 @@ PlateRecord run_diffusion(const Case& c, const Leaf& leaf, const Stepping& stepp
       snapshot.step = n + 1;
       snapshot.time = static_cast<double>(n + 1) * stepping.time_step;
       snapshot.concentration.assign(field.values().begin(), field.values().end());
-      const bool finite = std::all_of(snapshot.concentration.begin(), snapshot.concentration.end(),
-                                      [](double v) { return std::isfinite(v); });
       record.snapshots.push_back(std::move(snapshot));
       ++next;
-      if (!finite) {
+      if (!finite(record.snapshots.back())) {
         record.outcome = Outcome::unstable;
         record.message = "a sampled value is not finite, at step " + std::to_string(n + 1);
         break;
@@ -90,17 +86,6 @@ PlateRecord solve(const Case& c, const Plate& plate, const Leaf& leaf, const Ste
   const Cells cells = cells_of(*c.plate, leaf.cells);
   if (leaf.method == "fem") return fem::run(plate, cells, c.plate->evolution, stepping);
   return mpm::run(plate, cells, leaf.particles, scheme_of(leaf.method), c.plate->evolution, stepping);
-}
-
-Stepping plan(const Case& c, const TimeStep& step) {
-  const double end = c.times.back();
-  Stepping stepping;
-  stepping.steps = std::max(1L, static_cast<long>(std::ceil(end / step.asked * (1 - round_off))));
-  stepping.time_step = end / static_cast<double>(stepping.steps);
-  for (const double time : c.times)
-    stepping.sample_after.push_back(std::max(1L, std::lround(time / stepping.time_step)));
-  stepping.books = c.ledger ? Books::sums : Books::off;
-  return stepping;
 }
 
 reports::Sample measure_sample(const Case& c, const Leaf& leaf, const PlateSnapshot& snapshot, double asked,
@@ -281,7 +266,7 @@ reports::Run run_plate(const Case& whole, const Leaf& leaf, const Running& runni
   reports::Run run = describe_plate(c, leaf);
   const auto exact = make_plane_exact(c);
   const TimeStep step = step_of(c, leaf);
-  Stepping stepping = plan(c, step);
+  Stepping stepping = plan_steps(c.times.back(), step.asked, c.times, c.ledger);
   stepping.cancelled = running.cancelled;
   if (running.keep_ledger && c.ledger) stepping.books = Books::lines;
   run.time_step = stepping.time_step;
@@ -309,11 +294,7 @@ reports::Run run_plate(const Case& whole, const Leaf& leaf, const Running& runni
   measure_fields(c, leaf, record, run);
   if (mechanical(c)) {
     const double mass = elastic(plate).density * plate.width * plate.height;
-    if (c.ledger) measure_ledger(mass, record.sums, run);
-    for (const LedgerLine& line : record.ledger) {
-      run.ledger.push_back({line.time, line.kinetic, line.strain, line.dissipated, line.viscous, line.contact,
-                            line.scheme, line.work, line.lost, line.momentum, line.impulse});
-    }
+    if (c.ledger) measure_ledger(mass, record.sums, record.ledger, run);
     measure_bits(c, leaf, plate, stepping, record, run);
     if (c.plate->evolution && c.plate->evolution->diffusion)
       measure_against_forward_euler(c, leaf, plate, stepping, record, run);

@@ -11,6 +11,10 @@
 
 namespace diptych::cases {
 
+/// As case files and people call them, in the order of Side and of Edge::Support.
+inline const std::vector<std::string> side_names{"left", "right", "bottom", "top"};
+inline const std::vector<std::string> support_names{"free", "roller", "fixed", "driven", "platen"};
+
 /// A traction on one side: its history with times in seconds.
 struct SideLoad {
   Side side = Side::top;

@@ -35,10 +35,6 @@ using analytic::Quantity;
 constexpr std::array<std::pair<Quantity, const char*>, 3> quantities{
     {{Quantity::stress, "stress"}, {Quantity::velocity, "velocity"}, {Quantity::displacement, "displacement"}}};
 
-mpm::Scheme scheme_of(const std::string& method) {
-  return method == "mpm-usf" ? mpm::Scheme::usf : method == "mpm-usl" ? mpm::Scheme::usl : mpm::Scheme::musl;
-}
-
 double critical_time_step(const Scene& scene, const Leaf& leaf) {
   if (leaf.method == "fem") return fem::critical_time_step(scene, leaf.cells);
   return mpm::critical_time_step(scene, leaf.cells, leaf.particles, scheme_of(leaf.method));
@@ -55,16 +51,9 @@ double cell_time(const Scene& scene, const Leaf& leaf) {
 }
 
 Stepping plan(const Case& c, const Scene& scene, const Leaf& leaf) {
-  const double end = instant(c, leaf, c.times.back());
-  Stepping stepping;
-  stepping.steps =
-      std::max(1L, static_cast<long>(std::ceil(end / (leaf.courant * cell_time(scene, leaf)) * (1 - round_off))));
-  stepping.time_step = end / static_cast<double>(stepping.steps);
-  for (const double time : c.times) {
-    stepping.sample_after.push_back(std::max(1L, std::lround(instant(c, leaf, time) / stepping.time_step)));
-  }
-  stepping.books = c.ledger ? Books::sums : Books::off;
-  return stepping;
+  std::vector<double> times;
+  for (const double time : c.times) times.push_back(instant(c, leaf, time));
+  return plan_steps(times.back(), leaf.courant * cell_time(scene, leaf), times, c.ledger);
 }
 
 /// Numbers that differ between two records after scaling; a different number of samples counts as one more. NaN where
@@ -342,11 +331,7 @@ reports::Run run_leaf(const Case& whole, const Leaf& leaf, const Running& runnin
   }
   double mass = 0;
   for (const BarSpec& bar : c.bars) mass += material::density(bar.material) * bar.length;
-  measure_ledger(mass, record.sums, run);
-  for (const LedgerLine& line : record.ledger) {
-    run.ledger.push_back({line.time, line.kinetic, line.strain, line.dissipated, line.viscous, line.contact,
-                          line.scheme, line.work, line.lost, line.momentum, line.impulse});
-  }
+  measure_ledger(mass, record.sums, record.ledger, run);
   measure_outcomes(scene, spans_of(c, leaf.cells), record, stepping.time_step, exact.get(), run);
   measure_early_contact(c, leaf, record, run);
   measure_bits(c, leaf, scene, stepping, record, run);

@@ -25,12 +25,6 @@ struct VtuArray {
   bool on_cells = false;
 };
 
-/// What one file holds.
-struct VtuFields {
-  VtuMesh mesh;
-  std::vector<VtuArray> arrays;
-};
-
 /// {u₁x, u₁y, 0, u₂x, u₂y, 0, ...}: ParaView's arrows need three components.
 VtuArray vtu_vector(std::string name, const std::vector<double>& x, const std::vector<double>& y);
 /// XX, YY, XY, one each a cell or point.

@@ -1,0 +1,40 @@
+#include "cases/figure_runs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "cases/leaf.hpp"
+
+namespace diptych::cases {
+
+const reports::Run* find_run(const std::vector<reports::Run>& runs, const FigureSpec& spec, const std::string& method,
+                             const std::string& variant) {
+  const std::string parameters = parameters_label(Leaf{method, spec.cells, 0, {}, spec.parameters, variant});
+  for (const auto& run : runs) {
+    if (run.method == method && run.cells == spec.cells && run.courant_asked == spec.courant_of(method) &&
+        run.parameters == parameters && run.status == "completed" &&
+        (method == "fem" || run.particles == particles_label(spec.particles))) {
+      return &run;
+    }
+  }
+  return nullptr;
+}
+
+std::string name_of_method(const std::string& method) {
+  if (!method.starts_with("mpm")) return "FEM";
+  std::string scheme = method.substr(4);
+  std::transform(scheme.begin(), scheme.end(), scheme.begin(),
+                 [](unsigned char ch) { return static_cast<char>(std::toupper(ch)); });
+  return "MPM, " + scheme;
+}
+
+std::string kind_of_method(const std::string& method) { return method == "fem" ? "fem" : "mpm"; }
+
+std::string title_of(const Case& c, const FigureSpec& spec) {
+  const std::string title = spec.title.empty() ? c.title : spec.title;
+  return spec.id.rfind("fig", 0) == 0 ? fmt::format("Fig. {}. {}", spec.id.substr(3), title) : title;
+}
+
+}  // namespace diptych::cases

@@ -1,0 +1,19 @@
+// What figures of bars and of plates have in common: which run they draw, and how it is called.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cases/case.hpp"
+#include "reports/results.hpp"
+
+namespace diptych::cases {
+
+/// The completed run that the figure draws of a method and, of a plate, of a variant; null where there is none.
+const reports::Run* find_run(const std::vector<reports::Run>&, const FigureSpec&, const std::string& method,
+                             const std::string& variant = "");
+std::string name_of_method(const std::string& method);  ///< "FEM", "MPM, MUSL"
+std::string kind_of_method(const std::string& method);  ///< "fem" or "mpm", as figures tell them apart
+std::string title_of(const Case&, const FigureSpec&);   ///< "Fig. 4. ..." for "fig4"
+
+}  // namespace diptych::cases
