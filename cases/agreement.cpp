@@ -109,13 +109,25 @@ Apart of_contours(const std::array<Series, 2>& both, double time, double level) 
   return apart;
 }
 
-Apart of_histories(const std::array<Series, 2>& both) {
-  const auto history = [](const Run& run) {
-    if (run.platen.x.empty()) invalid(run.label() + " has no platen");
-    for (const double value : run.platen.y)
-      if (!std::isfinite(value)) invalid(run.label() + ": the platen's displacement is not a finite number");
-    return History{run.platen.x, run.platen.y};
-  };
+/// "platen.history" or "gauge.ID.xx", ".yy" or ".dilatancy".
+History history_of(const Run& run, const std::string& quantity) {
+  History history{run.platen.x, run.platen.y};
+  if (quantity.starts_with("gauge.")) {
+    const auto dot = quantity.rfind('.');
+    const std::string id = quantity.substr(6, dot - 6), component = quantity.substr(dot + 1);
+    history = {};
+    for (const auto& gauge : run.gauges)
+      if (gauge.id == id)
+        history = {gauge.time, component == "xx" ? gauge.xx : component == "yy" ? gauge.yy : gauge.dilatancy};
+  }
+  if (history.value.empty()) invalid(run.label() + " has no " + quantity);
+  for (const double value : history.value)
+    if (!std::isfinite(value)) invalid(run.label() + ": " + quantity + " is not a finite number");
+  return history;
+}
+
+Apart of_histories(const std::array<Series, 2>& both, const std::string& quantity) {
+  const auto history = [&](const Run& run) { return history_of(run, quantity); };
   Apart apart;
   const std::size_t finest = both[0].size() - 1;
   for (std::size_t k = 0; k <= finest; ++k) {
@@ -159,8 +171,8 @@ void judge_agreement(const Case& c, const GateSpec& gate, const std::vector<cons
   const auto both = both_methods(runs);
   result.formula = fmt::format("|{} − {}| of {} / √(U² + U²) ≤ {:g}{}", both[0][0]->method, both[1][0]->method,
                                gate.quantity, *gate.max, gate.shrinks ? ", and it shrinks" : "");
-  if (gate.quantity == "platen.history") {
-    judge(both, of_histories(both), gate, "", result);
+  if (gate.quantity == "platen.history" || gate.quantity.starts_with("gauge.")) {
+    judge(both, of_histories(both, gate.quantity), gate, "", result);
     return;
   }
   for (const double time : gate.times.empty() ? c.times : gate.times) {
@@ -172,6 +184,41 @@ void judge_agreement(const Case& c, const GateSpec& gate, const std::vector<cons
       judge(both, of_values(both, [&](const Run& run) { return probe_of(run, time, id); }), gate, when, result);
     }
   }
+}
+
+void judge_settling(const GateSpec& gate, const std::vector<const Run*>& runs, reports::Gate& result) {
+  std::map<std::string, Series> by_method;
+  for (const Run* run : runs) {
+    check_judgeable(*run);
+    by_method[run->method].push_back(run);
+  }
+  const auto both = by_method.size() == 2 ? both_methods(runs) : std::array<Series, 2>{};
+  if (by_method.empty() || by_method.size() > 2)
+    invalid(fmt::format("{} methods; one or two settle", by_method.size()));
+  result.formula =
+      fmt::format("Sprague–Geers distance of {} between successive meshes{}: each at most {:g} of the one before",
+                  gate.quantity, by_method.size() == 2 ? ", and between the methods" : "", *gate.max);
+  const auto distance = [&](const Run& a, const Run& b) {
+    return sprague_geers(history_of(a, gate.quantity), history_of(b, gate.quantity)).combined;
+  };
+  const auto falls = [&](const std::string& what, const std::vector<double>& distances) {
+    for (std::size_t k = 0; k + 1 < distances.size(); ++k) {
+      if (!(distances[k] > 1e-12)) invalid(what + ": two histories are the same");
+      hold(result, {fmt::format("{}: {:.3g} after {:.3g}", what, distances[k + 1], distances[k]), distances[k + 1],
+                    distances[k], 0, *gate.max, distances[k + 1] / distances[k], false});
+    }
+  };
+  for (auto& [method, series] : by_method) {
+    std::sort(series.begin(), series.end(), [](const Run* a, const Run* b) { return a->cells < b->cells; });
+    if (series.size() < 4) invalid(fmt::format("{}: {} meshes, at least 4 are needed", method, series.size()));
+    std::vector<double> between;
+    for (std::size_t k = 0; k + 1 < series.size(); ++k) between.push_back(distance(*series[k], *series[k + 1]));
+    falls(method, between);
+  }
+  if (by_method.size() < 2) return;
+  std::vector<double> apart;
+  for (std::size_t k = 0; k < both[0].size(); ++k) apart.push_back(distance(*both[1][k], *both[0][k]));
+  falls(both[0][0]->method + " and " + both[1][0]->method, apart);
 }
 
 }  // namespace diptych::cases

@@ -87,7 +87,7 @@ struct Probe {
 
 struct GateSpec {
   std::string id;        ///< unique in the case
-  std::string kind;      ///< "exact", "constant", "order", "invariant", "limit", "agreement"
+  std::string kind;      ///< "exact", "constant", "order", "invariant", "limit", "agreement", "settling"
   std::string quantity;  ///< see cases/README.md
   std::string reason;    ///< why this tolerance
   Where where;
@@ -109,6 +109,19 @@ struct GateSpec {
   std::string declaration;                     ///< its own keys and values in one canonical line, for gates.lock
 };
 
+/// A published range of speeds of failure fronts, with the delay after which they set off: a time window at each gauge.
+struct SpeedBand {
+  std::string label;
+  std::array<double, 2> speed{1, 1};  ///< [m/s]
+  std::array<double, 2> delay{0, 0};  ///< [s]
+};
+
+/// A table of a page on a failure wave: what some variants do.
+struct PageSection {
+  std::string heading, says;
+  std::vector<std::string> variants;  ///< "" is the case as it stands
+};
+
 /// A part of a motion figure, magnified.
 struct Zoom {
   std::array<double, 2> x, t;  ///< [case units], [time unit of the case]
@@ -119,8 +132,8 @@ struct FigureSpec {
   std::string title;  ///< empty: the case's
   /// "profiles" of a field at some times, or "motion": positions over time. Of a plate "contours" of both methods and
   /// their difference, "problem": the scene itself, "history" of the platen, "sweep" of a probe over
-  /// a swept parameter, "choices": what each variant does, or
-  /// "agreement": how far the methods are apart and how far they may be.
+  /// a swept parameter, "choices": what each variant does, "agreement": how far the methods are apart and how far they
+  /// may be, "gauges": histories of stress, or "failure": the page on a failure wave.
   std::string kind = "profiles";
   std::string field = "stress";
   std::vector<double> times;          ///< subset of the sample times; empty: all
@@ -131,12 +144,19 @@ struct FigureSpec {
   std::vector<std::string> methods;        ///< drawn ones
   std::string choices;                     ///< parameters that the paper leaves open, in words
   std::vector<double> particles{0.5};
-  Parameters parameters;                       ///< of the runs to draw, where they are swept
-  std::optional<std::array<double, 2>> range;  ///< of the field's axis
-  std::optional<Zoom> zoom;                    ///< motion
-  double magnify = 1;                          ///< motion: displacements are drawn so many times as large
-  std::vector<double> levels;                  ///< contours, choices: of the field
-  std::string over, probe, variant;            ///< sweep: the parameter, what is drawn, and of which variant
+  Parameters parameters;                            ///< of the runs to draw, where they are swept
+  std::optional<std::array<double, 2>> range;       ///< of the field's axis
+  std::optional<Zoom> zoom;                         ///< motion
+  double magnify = 1;                               ///< motion: displacements are drawn so many times as large
+  std::vector<double> levels;                       ///< contours, choices: of the field
+  std::string over, probe, variant;                 ///< sweep: the parameter, what is drawn, and of which variant
+  std::vector<std::string> gauges;                  ///< gauges: a panel each; empty: all
+  std::vector<std::string> variants;                ///< gauges: a panel each, too; empty: the case as it stands
+  std::vector<std::string> components;              ///< gauges: "longitudinal", "lateral"
+  std::vector<SpeedBand> bands;                     ///< gauges
+  std::optional<std::array<double, 2>> time_range;  ///< gauges [s]
+  std::vector<PageSection> sections;                ///< failure
+  std::vector<std::string> pictures;                ///< failure: figures of the case to show
 
   double courant_of(const std::string& method) const {
     const auto own = courants.find(method);
@@ -155,6 +175,7 @@ struct Case {
   std::optional<PlateSpec> plate;  ///< then `bars`, their ends, loads and exact solution mean nothing
   std::vector<PlateVariant> variants;
   std::vector<PlateProbe> plate_probes;
+  std::vector<GaugeSpec> gauges;
   Contact contact = Contact::node_to_node;
   std::optional<ViscositySpec> viscosity;
   std::vector<LoadSpec> loads;

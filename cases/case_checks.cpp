@@ -8,6 +8,7 @@
 #include "cases/build.hpp"
 #include "cases/case_file.hpp"
 #include "cases/expression.hpp"
+#include "cases/gauges.hpp"
 #include "cases/plate_build.hpp"
 
 namespace diptych::cases {
@@ -27,6 +28,10 @@ const std::vector<Theory> all_theories{
     {"impact", "impact", outcomes, methods},
     {"plastic-impact", "plastic-impact", outcomes, methods},
 };
+
+/// The same of plates: standing modes; of a plate that a flyer strikes what the solid does, what the lattice does, and
+/// where the damage has got to.
+const Names plate_theories{"mode", "plate-impact", "impact-lattice", "diffusion-front"};
 
 /// The values of parameters that the runs have: those of [parameters] where none is swept.
 std::vector<Case> variants(const Case& c) {
@@ -157,14 +162,27 @@ Trial trial_of(const Case& c) {
   return trial;
 }
 
-const Names plate_invariants{"energy.drift",        "energy.lost",        "energy.closure", "momentum.drift",
-                             "bits.repeat",         "bits.threads",       "bits.mirror",    "bits.power-of-two",
-                             "bits.undamaged",      "numbers.largest",    "area.error",     "concentration.balance",
-                             "concentration.least", "cross.forward-euler"};
+const Names plate_invariants{"energy.drift",        "energy.lost",         "energy.closure",    "momentum.drift",
+                             "bits.repeat",         "bits.threads",        "bits.mirror",       "bits.power-of-two",
+                             "bits.undamaged",      "numbers.largest",     "area.error",        "concentration.balance",
+                             "concentration.least", "cross.forward-euler", "energy.dissipated", "dilatancy.ahead",
+                             "impact.left-over"};
+const Names failure_measures{"failure.speed", "failure.delay", "failure.slowing"};
 const Names plate_fields{"displacement", "velocity", "stress", "concentration"};
 
 Names plate_quantities_of(const std::string& kind, const Case& c) {
-  if (kind == "invariant") return plate_invariants;
+  const auto of_gauges = [&](const Names& measures) {
+    Names names;
+    for (const GaugeSpec& gauge : c.gauges)
+      for (const std::string& measure : measures) names.push_back("gauge." + gauge.id + "." + measure);
+    return names;
+  };
+  const auto with = [](Names names, const Names& more) {
+    names.insert(names.end(), more.begin(), more.end());
+    return names;
+  };
+  if (kind == "invariant") return with(plate_invariants, of_gauges({"prediction"}));
+  if (kind == "settling") return of_gauges({"xx", "yy", "dilatancy"});
   if (kind == "limit") return {"critical_courant", "stable"};
   Names names;
   if (kind != "agreement")
@@ -172,7 +190,10 @@ Names plate_quantities_of(const std::string& kind, const Case& c) {
       for (const char* norm : {".L1", ".L2", ".Linf"}) names.push_back(field + norm);
   if (kind == "exact" || kind == "agreement")
     for (const PlateProbe& probe : c.plate_probes) names.push_back("probe." + probe.id);
-  if (kind == "agreement") names.insert(names.end(), {"contour.distance", "platen.history"});
+  if (kind == "agreement")
+    names = with(with(names, {"contour.distance", "platen.history"}), of_gauges({"xx", "yy", "dilatancy"}));
+  if (kind == "exact" || kind == "constant") names = with(names, of_gauges(gauge_measures));
+  if (kind == "exact" && c.gauges.size() > 1) names = with(names, failure_measures);
   return names;
 }
 
@@ -187,11 +208,12 @@ Names variants_of(const Case& c) {
 }
 
 Names figure_kinds(const Case& c) {
-  if (c.plate) return {"contours", "problem", "history", "sweep", "choices", "agreement"};
+  if (c.plate) return {"contours", "problem", "history", "sweep", "choices", "agreement", "gauges", "failure"};
   return {"profiles", "motion"};
 }
 
-Names theories() {
+Names theories(const Case& c) {
+  if (c.plate) return plate_theories;
   Names names;
   for (const Theory& theory : all_theories) names.push_back(theory.name);
   return names;
@@ -492,6 +514,25 @@ void check_agreement(Table& t, const GateSpec& gate, const Case& c) {
                           meshes.begin()->second.size()));
 }
 
+/// One or two methods, each otherwise alike on four meshes or more.
+void check_settling(Table& t, const GateSpec& gate, const Case& c) {
+  std::map<std::string, std::set<int>> meshes;
+  std::map<std::string, std::set<std::string>> otherwise;
+  for (const Leaf& run : runs_of(gate, c)) {
+    meshes[run.method].insert(run.cells);
+    otherwise[run.method].insert("courant = " + words(run.courant) +
+                                 (parameters_label(run).empty() ? "" : ", " + parameters_label(run)));
+  }
+  const Place place = t.place("where");
+  if (meshes.size() > 2) place.say(fmt::format("found {} methods; allowed: one or two", meshes.size()));
+  for (const auto& [method, runs] : otherwise)
+    if (runs.size() > 1)
+      place.say(fmt::format("found runs of {} that differ in more than the mesh ({}); allowed: one of them, in where",
+                            method, fmt::join(runs, "; ")));
+  for (const auto& [method, cells] : meshes)
+    if (cells.size() < 4) place.say(fmt::format("found {} meshes of {}; allowed: at least 4", cells.size(), method));
+}
+
 /// A quantity of a plate needs what it is about.
 void check_plate_gate(Table& t, const GateSpec& gate, const Case& c) {
   const Place place = t.place("quantity");
@@ -505,12 +546,16 @@ void check_plate_gate(Table& t, const GateSpec& gate, const Case& c) {
                                                          : field == "displacement" ? e.displacement[0]
                                                                                    : e.concentration)
                                                             .empty()
-                       : e.solution == "corner-source" ? field == "concentration"
-                                                       : field != "concentration";
+                       : e.solution == "corner-source" || e.solution == "face-front" ? field == "concentration"
+                                                                                     : field != "concentration";
     if (!given) place.refuse(words(gate.quantity) + " where [exact] does not give it", "fields that [exact] gives");
   }
-  if (gate.kind == "constant" && !gate.predict.empty() && gate.predict != "mode")
-    t.place("predict").refuse(words(gate.predict) + " on a plate", "\"mode\"");
+  const bool of_gauge = gate.quantity.starts_with("gauge.");
+  if (gate.kind == "constant" && !gate.predict.empty() && !gate.quantity.empty() &&
+      of_gauge == (gate.predict == "mode"))
+    t.place("predict").refuse(words(gate.predict) + " for " + words(gate.quantity),
+                              of_gauge ? "\"plate-impact\", \"impact-lattice\" or \"diffusion-front\"" : "\"mode\"");
+  if (gate.kind == "settling" && !c.axes.empty()) check_settling(t, gate, c);
   if (gate.predict == "mode" && !e.solution.empty() && !contains({"lame-mode", "roller-mode", "p-wave"}, e.solution))
     t.place("predict").refuse("\"mode\" for exact.solution = " + words(e.solution),
                               "with \"lame-mode\", \"roller-mode\" or \"p-wave\"");
@@ -519,8 +564,11 @@ void check_plate_gate(Table& t, const GateSpec& gate, const Case& c) {
       place.refuse(words(gate.quantity) + " without " + what, "with it");
   };
   const auto& supports = c.plate->supports;
-  const bool damage = c.plate->evolution.has_value(), spreads = damage && c.plate->evolution->diffusion;
-  needs({"bits.undamaged", "contour.distance"}, damage, "damage");
+  const bool damage = c.plate->evolution.has_value();
+  const bool spreads = (damage && c.plate->evolution->diffusion) || c.plate->spread;
+  needs({"contour.distance"}, damage, "damage");
+  needs({"bits.undamaged"}, damage || c.plate->spread, "damage");
+  needs({"dilatancy.ahead", "impact.left-over"}, c.plate->flyer.has_value(), "a flyer");
   needs({"cross.forward-euler"}, spreads, "damage that diffuses");
   needs({"concentration.balance", "concentration.least"}, spreads || c.plate->diffusion, "diffusion");
   needs({"platen.history"}, std::find(supports.begin(), supports.end(), Edge::Support::platen) != supports.end(),
@@ -532,7 +580,9 @@ void check_plate_gate(Table& t, const GateSpec& gate, const Case& c) {
   const bool of_ledger = gate.quantity.starts_with("energy.") || gate.quantity.starts_with("momentum.");
   if (of_ledger && !c.ledger)
     place.refuse(words(gate.quantity) + " with run.ledger = false", "with the ledger, run.ledger = true");
-  if (gate.quantity == "bits.power-of-two" && c.plate->evolution)
+  if (gate.quantity == "bits.mirror" && c.plate->flyer)
+    place.refuse(words(gate.quantity) + " of a flyer, which comes from the left", "without [flyer]");
+  if (gate.quantity == "bits.power-of-two" && (c.plate->evolution || c.plate->spread))
     place.refuse(words(gate.quantity) + " of a plate with damage", "of elastic plates: eq. 23a is not free of units");
   if (gate.kind == "order") check_order(t, gate, c);
 }

@@ -28,7 +28,7 @@ Names variants_of(const Case&);
 /// Kinds of figures of the case's scene; the first is the usual one.
 Names figure_kinds(const Case&);
 /// What a `constant` gate may be measured against.
-Names theories();
+Names theories(const Case&);
 /// Quantities that a gate of this kind may judge in this case.
 Names quantities_of(const std::string& kind, const Case&);
 /// The values of all blocks of axes together; none where the axes hold a mistake.

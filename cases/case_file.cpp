@@ -416,7 +416,7 @@ GateSpec read_gate(Table& t, const Case& c) {
   gate.id = t.need("id", id());
   if (!gate.id.empty()) t.rename("gate " + words(gate.id) + ": ");
   Names known_kinds{"exact", "constant", "order", "invariant", "limit"};
-  if (c.plate) known_kinds.push_back("agreement");
+  if (c.plate) known_kinds.insert(known_kinds.end(), {"agreement", "settling"});
   gate.kind = t.need("kind", one_of(known_kinds));
   gate.reason = t.need("reason", text());
   gate.slow = t.get("slow", flag());
@@ -431,7 +431,7 @@ GateSpec read_gate(Table& t, const Case& c) {
   };
   const bool limit = gate.kind == "limit";
   if (of("times", {"exact", "constant", "order", "invariant", "agreement"})) gate.times = read_times(t, c);
-  if (of("max", {"exact", "invariant", "agreement"})) gate.max = t.must("max", not_negative());
+  if (of("max", {"exact", "invariant", "agreement", "settling"})) gate.max = t.must("max", not_negative());
   if (c.plate && of("judged", {"agreement"})) {
     gate.judged = t.need("judged", set_of(number_of_cells()));
     among(t.place("judged"), gate.judged, all_axes(c).cells, "axes.cells");
@@ -440,12 +440,13 @@ GateSpec read_gate(Table& t, const Case& c) {
   if (c.plate && t.applies("level", "quantity", gate.quantity, {"contour.distance"}))
     gate.level = t.need("level", positive());
   if (of("predict", {"constant", "limit"}) && (!limit || of_limit("predict", "critical_courant")))
-    gate.predict = t.need("predict", one_of(limit ? Names{"stability-limit"} : theories()));
+    gate.predict = t.need("predict", one_of(limit ? Names{"stability-limit"} : theories(c)));
   if (of("ratio", {"constant", "limit"}) && (!limit || of_limit("ratio", "critical_courant")))
     gate.ratio = t.must("ratio", interval(positive()));
   if (of("outcome", {"limit"}) && of_limit("outcome", "stable")) gate.outcome = t.need("outcome", one_of({"unstable"}));
   if (of("steps", {"limit"})) gate.steps = t.get("steps", whole(1, 1'000'000'000), static_cast<int>(gate.steps));
-  const bool probe = gate.quantity.starts_with("probe.");  // what else would be exact about it
+  const bool probe = gate.quantity.starts_with("probe.") || gate.quantity.starts_with("gauge.") ||
+                     gate.quantity.starts_with("failure.");  // what else would be exact about it
   if (of("expect", probe ? Names{"order", "exact"} : Names{"order"})) gate.expect = t.must("expect", any_number());
   if (of("band", {"order"})) gate.band = t.must("band", interval());
   if (of("over", {"order"})) gate.over_time_step = t.get("over", one_of({"cells", "courant"})) == "courant";
@@ -453,6 +454,39 @@ GateSpec read_gate(Table& t, const Case& c) {
   check_gate(t, gate, c);
   if (!c.axes.empty() && where_is_read) check_where(t.place("where"), gate, c);
   return gate;
+}
+
+/// What figures and pages of gauges have for themselves.
+void read_gauge_figure(Table& t, FigureSpec& figure, const Case& c) {
+  const auto of = [&](const char* key, const Names& kinds) { return t.applies(key, "kind", figure.kind, kinds); };
+  Names gauges, figures;
+  for (const GaugeSpec& gauge : c.gauges) gauges.push_back(gauge.id);
+  if (of("gauges", {"gauges"})) figure.gauges = t.get("gauges", set_of(one_of(gauges)), gauges);
+  if (of("variants", {"gauges"})) figure.variants = t.get("variants", set_of(one_of(variants_of(c))), {""});
+  if (of("components", {"gauges"}))
+    figure.components = t.need("components", set_of(one_of({"longitudinal", "lateral"})));
+  if (of("time_range", {"gauges"})) figure.time_range = t.maybe("time_range", interval());
+  if (of("bands", {"gauges"}))
+    t.each("bands", [&](Table& b) {
+      SpeedBand band;
+      band.label = b.need("label", text());
+      const auto speed = b.need("speed", one_or_set_of(positive()));  // one speed, or from the least to the largest
+      if (!speed.empty()) band.speed = {speed.front(), speed.back()};
+      if (speed.size() > 2 || !ascending(speed)) b.place("speed").refuse(words(speed), "one speed, or [least, most]");
+      band.delay = b.get("delay", interval(not_negative()), {0, 0});
+      figure.bands.push_back(band);
+    });
+  if (of("sections", {"failure"}))
+    t.each("sections", [&](Table& s) {
+      PageSection section;
+      section.heading = s.need("heading", text());
+      section.says = s.need("says", text());
+      section.variants = s.need("variants", set_of(one_of(variants_of(c))));
+      figure.sections.push_back(section);
+    });
+  if (of("pictures", {"failure"})) figure.pictures = t.get("pictures", set_of(id()));
+  if (contains({"gauges", "failure"}, figure.kind) && gauges.empty())
+    t.place("kind").refuse(words(figure.kind) + " without a gauge", "with sample.gauges");
 }
 
 FigureSpec read_figure(Table& t, const Case& c) {
@@ -475,6 +509,7 @@ FigureSpec read_figure(Table& t, const Case& c) {
       figure.variant = t.get("variant", one_of(variants_of(c)));
     }
     for (const char* key : {"probe", "variant"}) of(key, {"sweep"});
+    read_gauge_figure(t, figure, c);
   } else if (of("field", {"profiles"})) {
     figure.field = t.get("field", one_of(fields), figure.field);
   }
@@ -516,7 +551,7 @@ FigureSpec read_figure(Table& t, const Case& c) {
   }
   const bool one_set = t.has("particles") || axes.particles.size() == 1;
   if (one_set) figure.particles = one_of_axis("particles", particles(), axes.particles);
-  if (of("range", {"profiles", "contours"})) figure.range = t.maybe("range", interval());
+  if (of("range", {"profiles", "contours", "gauges"})) figure.range = t.maybe("range", interval());
   t.maybe_table("parameters", [&](Table& p) {
     const auto given = read_values(p, c);
     among_swept(t.place("parameters"), given, c);
@@ -545,7 +580,8 @@ FigureSpec read_figure(Table& t, const Case& c) {
     good &= among(t.place("particles"), std::vector<std::vector<double>>{figure.particles}, axes.particles,
                   "axes.particles");
   const std::vector<Leaf> runs = leaves(c);
-  if (contains({"problem", "sweep", "agreement"}, figure.kind)) return figure;  // of no run, or of many
+  if (contains({"problem", "sweep", "agreement", "gauges", "failure"}, figure.kind))
+    return figure;  // of no run, or of many
   for (const std::string& method : figure.methods) {
     const Leaf leaf{method, figure.cells, figure.courant_of(method),
                     method.starts_with("mpm") ? figure.particles : std::vector<double>{}, figure.parameters};

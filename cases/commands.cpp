@@ -164,7 +164,7 @@ int draw_figures(const std::vector<reports::Case>& results, const std::filesyste
     for (const auto& [name, page] : result.pages) {
       if (!wanted.empty() && !wanted.count(name)) continue;
       const auto path = directory / (name + ".html");
-      reports::write_choices_page(page, path);
+      reports::write_page(page, path);
       fmt::print("{}\n", path.string());
     }
   }
@@ -218,8 +218,13 @@ int run_command(const Options& options, const std::atomic<bool>& cancelled) {
     for (auto& figure : result.plate_figures) figure.id = result.id + "." + figure.id;
     for (auto& [name, page] : result.pages) {
       name = result.id + "." + name;
-      for (auto& row : page.rows)
-        if (!row.picture.empty()) row.picture = result.id + "." + row.picture;
+      const auto rename = [&](std::string& picture) {
+        if (!picture.empty()) picture = result.id + "." + picture;
+      };
+      for (auto& section : page.sections) {
+        rename(section.picture);
+        for (auto& row : section.rows) rename(row.picture);
+      }
     }
   }
   for (const auto& result : results) {

@@ -7,6 +7,7 @@
 
 #include "cases/build.hpp"
 #include "cases/figure_runs.hpp"
+#include "cases/gauge_figures.hpp"
 #include "cases/leaf.hpp"
 #include "cases/plate_figures.hpp"
 
@@ -206,6 +207,8 @@ void add_figures(const Case& whole, reports::Case& result) {
       if (spec.kind == "contours") result.plate_figures.push_back(contour_figure(c, spec, runs));
       if (spec.kind == "history") result.figures.push_back(history_figure(c, spec, runs));
       if (spec.kind == "sweep") result.figures.push_back(sweep_figure(whole, spec, runs));
+      if (spec.kind == "gauges") result.figures.push_back(gauge_figure(c, spec, runs));
+      if (spec.kind == "failure") add_failure_page(c, spec, result);
       if (spec.kind == "agreement") add_agreement(c, spec, result);
       if (spec.kind == "choices") add_choices(c, spec, runs, result);
       continue;

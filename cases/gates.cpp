@@ -113,7 +113,8 @@ std::vector<Reading> read(const Case& c, const GateSpec& gate, const std::vector
     if (is_field(head, tail) || head == "probe") {
       read_field(c, gate, run, readings);
     } else if (run.measures.count(gate.quantity)) {
-      const auto predicted = run.measures.find(gate.quantity + ".predicted");
+      const bool of_solid = gate.predict == "plate-impact" || gate.predict == "diffusion-front";
+      const auto predicted = run.measures.find(gate.quantity + (of_solid ? ".exact" : ".predicted"));
       readings.push_back({&run, std::nan(""), run.measures.at(gate.quantity),
                           predicted == run.measures.end() ? std::nullopt : std::optional(predicted->second),
                           run.label()});
@@ -254,11 +255,14 @@ Gate judge(const Case& c, const GateSpec& gate, const std::vector<Run>& runs) {
   try {
     if (!gate.outcome.empty()) {
       judge_blow_up(c, gate, runs, result);
-    } else if (gate.kind == "agreement") {
+    } else if (gate.kind == "agreement" || gate.kind == "settling") {
       std::vector<const Run*> spoken_of;
       for (const Run& run : runs)
         if (matches(gate.where, leaf_of(c, run))) spoken_of.push_back(&run);
-      judge_agreement(c, gate, spoken_of, result);
+      if (gate.kind == "agreement")
+        judge_agreement(c, gate, spoken_of, result);
+      else
+        judge_settling(gate, spoken_of, result);
     } else {
       const auto readings = read(c, gate, runs);
       if (gate.max) judge_maximum(gate, readings, result);

@@ -69,6 +69,7 @@ Case with_parameters(Case c, const Leaf& leaf) {
   for (const auto& [name, value] : leaf.parameters) c.parameters[name] = value;
   for (const PlateVariant& variant : c.variants)
     if (variant.id == leaf.variant) c.plate = variant.plate;
+  if (c.plate && c.plate->rows > 0) c.plate->height = c.plate->rows * (c.plate->width / leaf.cells);
   return c;
 }
 

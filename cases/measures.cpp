@@ -45,6 +45,7 @@ void measure_ledger(double mass, const LedgerSums& sums, const std::vector<Ledge
   const auto relative = [](double value, double scale) { return scale > 0 ? value / scale : value; };
   run.measures["energy.drift"] = relative(sums.taken, sums.held);
   run.measures["energy.lost"] = relative(sums.last.contact + sums.last.scheme + sums.last.lost, sums.held);
+  run.measures["energy.dissipated"] = relative(sums.last.dissipated, sums.held);
   run.measures["energy.closure"] = relative(sums.lost, sums.held);
   run.measures["momentum.drift"] = relative(sums.momentum, std::sqrt(2 * mass * sums.kinetic));
 }

@@ -7,7 +7,9 @@
 #include <numbers>
 
 #include "analytic/diffusion_exact.hpp"
+#include "analytic/diffusion_front.hpp"
 #include "analytic/plane_modes.hpp"
+#include "analytic/plate_impact.hpp"
 #include "cases/case_file.hpp"
 #include "cases/expression.hpp"
 #include "cases/histories.hpp"
@@ -79,11 +81,6 @@ class PlaneExpressions final : public analytic::PlaneSolution {
   std::map<PlaneQuantity, double> scales_;
 };
 
-const material::PlaneElastic& elastic_of(const PlateSpec& plate) {
-  if (const auto* damage = std::get_if<material::TensileDamage>(&*plate.material)) return damage->elastic;
-  return std::get<material::PlaneElastic>(*plate.material);
-}
-
 double diffusivity_at(const Case& c, double x, double y) {
   return (*compiled(c.plate->diffusion->diffusivity, {"x", "y"}, c))(x, y);
 }
@@ -96,6 +93,12 @@ std::string scaled_words(double value, const char* unit) {
 }
 
 }  // namespace
+
+const material::PlaneElastic& elastic_of(const PlateSpec& plate) {
+  if (const auto* damage = std::get_if<material::TensileDamage>(&*plate.material)) return damage->elastic;
+  if (const auto* failure = std::get_if<material::FailureWave>(&*plate.material)) return failure->elastic;
+  return std::get<material::PlaneElastic>(*plate.material);
+}
 
 std::map<std::string, double> plate_constants(const Case& c) {
   std::map<std::string, double> constants = c.parameters;
@@ -114,6 +117,7 @@ std::map<std::string, double> plate_constants(const Case& c) {
 }
 
 Cells cells_of(const PlateSpec& plate, int cells) {
+  if (plate.rows > 0) return {cells, plate.rows};
   const double up = plate.height / (plate.width / cells * plate.cell_aspect);
   return {cells, std::max(1, static_cast<int>(std::lround(up)))};
 }
@@ -123,7 +127,21 @@ diffusion::Grid grid_of(const PlateSpec& plate, int cells) {
   return {n.x, n.y, plate.width / n.x, plate.height / n.y};
 }
 
-Plate make_plate(const Case& c) {
+std::optional<diffusion::Spread> spread_of(const Case& c, int cells) {
+  const PlateSpec& plate = *c.plate;
+  if (!plate.spread) return {};
+  diffusion::Spread spread = *plate.spread;
+  const auto face = plate.flyer ? std::optional(plate.flyer->thickness) : plate.face;
+  if (face) spread.face = static_cast<int>(std::lround(*face * cells / plate.width));
+  if (const auto f = compiled(plate.initial_concentration, {"x", "y"}, c)) {
+    const diffusion::Grid grid = grid_of(plate, cells);
+    for (int j = 0; j <= grid.ny; ++j)
+      for (int i = 0; i <= grid.nx; ++i) spread.start.push_back((*f)(i * grid.hx, j * grid.hy));
+  }
+  return spread;
+}
+
+Plate make_plate(const Case& c, int cells) {
   const PlateSpec& spec = *c.plate;
   Plate plate;
   plate.width = spec.width;
@@ -132,6 +150,14 @@ Plate make_plate(const Case& c) {
   plate.compression = spec.compression;
   plate.convected = c.convected;
   plate.pic = spec.pic;
+  plate.viscosity = spec.viscosity;
+  if (spec.flyer) {
+    const FlyerSpec& flyer = *spec.flyer;
+    const double unit = flyer.gap_unit == "cells" ? spec.width / cells : 1;
+    plate.impact = Impact{flyer.thickness, flyer.velocity, flyer.gap * unit};
+    for (const GaugeSpec& gauge : c.gauges)
+      plate.gauges.push_back({flyer.thickness + gauge.from_face, spec.height / 2});
+  }
   for (std::size_t side = 0; side < 4; ++side) {
     plate.edges[side].support = spec.supports[side];
     if (spec.supports[side] == Edge::Support::driven) plate.edges[side].velocity = vector_of_xyt(spec.drive, c);
@@ -185,10 +211,31 @@ std::unique_ptr<analytic::PlaneSolution> make_plane_exact(const Case& c) {
     if (e.solution == "p-wave") return std::make_unique<analytic::StandingPWave>(strip);
     return std::make_unique<analytic::StandingSWave>(strip);
   }
+  if (e.solution == "plate-impact")
+    return std::make_unique<analytic::PlateImpact>(analytic::PlateImpact::Parameters{
+        medium_of(plate), plate.width, plate.height, plate.flyer->thickness, plate.flyer->velocity});
+  if (e.solution == "face-front")
+    return std::make_unique<analytic::FaceFront>(
+        analytic::FaceFront::Parameters{plate.width, plate.height, plate.diffusion->spread->diffusivity,
+                                        profile_of(plate.diffusion->spread->profile), 1});
   if (e.solution == "corner-source")
     return std::make_unique<analytic::CornerSource>(
         analytic::CornerSource::Parameters{plate.diffusion->corner_rate, diffusivity_at(c, 0, 0)});
   return nullptr;
+}
+
+analytic::FrontProfile profile_of(diffusion::Profile profile) {
+  switch (profile) {
+    case diffusion::Profile::falling: return analytic::FrontProfile::falling;
+    case diffusion::Profile::constant: return analytic::FrontProfile::constant;
+    case diffusion::Profile::rising: return analytic::FrontProfile::rising;
+  }
+  return analytic::FrontProfile::constant;
+}
+
+analytic::ImpactLattice::Parameters impact_lattice(const PlateSpec& plate, const Leaf& leaf, double time_step) {
+  return {medium_of(plate), plane_discretisation(plate, leaf, time_step), leaf.cells,
+          static_cast<int>(std::lround(plate.flyer->thickness * leaf.cells / plate.width)), plate.flyer->velocity};
 }
 
 analytic::PlaneDiscretisation plane_discretisation(const PlateSpec& plate, const Leaf& leaf, double time_step) {
@@ -204,6 +251,10 @@ analytic::PlaneDiscretisation plane_discretisation(const PlateSpec& plate, const
 DiffusionScene make_diffusion(const Case& c) {
   const PureDiffusion& spec = *c.plate->diffusion;
   DiffusionScene scene;
+  if (spec.spread) {
+    scene.diffusivity = [d = spec.spread->diffusivity](double, double) { return d; };
+    return scene;
+  }
   scene.diffusivity = [f = *compiled(spec.diffusivity, {"x", "y"}, c)](double x, double y) { return f(x, y); };
   if (const auto f = compiled(spec.rate, {"x", "y", "t"}, c))
     scene.rate = [f = *f](double x, double y, double t) { return f(x, y, t); };
@@ -213,7 +264,9 @@ DiffusionScene make_diffusion(const Case& c) {
 }
 
 std::string words_of(const PlateSpec& plate) {
-  std::string text = fmt::format("{:g} × {:g} m", plate.width, plate.height);
+  std::string text = plate.rows > 0
+                         ? fmt::format("{:g} m, {} row{} of cells", plate.width, plate.rows, plate.rows > 1 ? "s" : "")
+                         : fmt::format("{:g} × {:g} m", plate.width, plate.height);
   if (!plate.material) return text;
   const material::PlaneElastic& e = elastic_of(plate);
   return text + fmt::format(", E = {}, ν = {:g}, ρ = {:g} kg/m³, plane {}", scaled_words(e.youngs_modulus, "Pa"),
@@ -227,7 +280,10 @@ std::map<std::string, std::string> plate_features(const Case& c) {
     used["diffusion"] = "[diffusion]";
     return used;
   }
-  if (plate.evolution)
+  if (plate.spread) {
+    used["failure-wave"] = "material.model = \"failure-wave\"";
+    used["diffusion"] = "[diffusion]";
+  } else if (plate.evolution)
     used["damage"] = "material.model = \"tensile-damage\"";
   else
     used["elastic"] = "material.model = \"elastic\"";
@@ -238,6 +294,8 @@ std::map<std::string, std::string> plate_features(const Case& c) {
   if (!plate.body_force[0].empty()) used["body-force"] = "[body_force]";
   if (c.convected) used["convection"] = "model.displacements = \"finite\"";
   if (plate.pic > 0) used["pic"] = "model.pic";
+  if (plate.flyer) used["impact"] = "[flyer]";
+  if (plate.viscosity) used["viscosity"] = "[viscosity]";
   return used;
 }
 

@@ -7,11 +7,14 @@
 #include <optional>
 #include <string>
 
+#include "analytic/diffusion_front.hpp"
+#include "analytic/impact_lattice.hpp"
 #include "analytic/plane_discrete.hpp"
 #include "analytic/plane_exact.hpp"
 #include "cases/case.hpp"
 #include "cases/leaf.hpp"
 #include "diffusion/concentration.hpp"
+#include "diffusion/dilatancy.hpp"
 #include "material/plate.hpp"
 
 namespace diptych::cases {
@@ -23,11 +26,18 @@ std::map<std::string, double> plate_constants(const Case&);
 Cells cells_of(const PlateSpec&, int cells);
 diffusion::Grid grid_of(const PlateSpec&, int cells);
 
-/// The scene of one run. Holds expressions of its own: make one for each thread.
-Plate make_plate(const Case&);
+/// How dilatancy spreads in a run with a failure wave: the impact face is a column of nodes, V_d at the start theirs.
+std::optional<diffusion::Spread> spread_of(const Case&, int cells);
+const material::PlaneElastic& elastic_of(const PlateSpec&);
+
+/// The scene of one run on so many cells. Holds expressions of its own: make one for each thread.
+Plate make_plate(const Case&, int cells);
 /// The exact solution, or null where the case names none.
 std::unique_ptr<analytic::PlaneSolution> make_plane_exact(const Case&);
 analytic::PlaneMedium medium_of(const PlateSpec&);
+/// The lattice of an elastic plate that a flyer strikes.
+analytic::ImpactLattice::Parameters impact_lattice(const PlateSpec&, const Leaf&, double time_step);
+analytic::FrontProfile profile_of(diffusion::Profile);
 analytic::PlaneDiscretisation plane_discretisation(const PlateSpec&, const Leaf&, double time_step);
 
 /// Diffusivity and source of a scene of diffusion alone.

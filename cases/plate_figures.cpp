@@ -244,9 +244,10 @@ reports::Figure sweep_figure(const Case& c, const FigureSpec& spec, const std::v
 }
 
 void add_agreement(const Case& c, const FigureSpec& spec, reports::Case& result) {
-  reports::ChoicesPage page;
+  reports::Page page;
+  reports::Page::Section table;
   page.title = title_of(c, spec);
-  page.first = "Quantity, mesh and time";
+  table.first = "Quantity, mesh and time";
   page.intro = {
       c.why,
       "Where there is no exact solution the two methods are held against each other. Each one's uncertainty on a mesh "
@@ -255,27 +256,29 @@ void add_agreement(const Case& c, const FigureSpec& spec, reports::Case& result)
       "meant to hold the exact value in 95 of 100 cases; expected is the root of the sum of their squares. Such "
       "agreement never outranks a gate against an exact solution."};
   for (const std::string& note : notes_of(c, spec)) page.intro.push_back(note + ".");
-  page.columns = {"apart", "expected within", "ratio", "allowed", "verdict"};
+  table.columns = {"apart", "expected within", "ratio", "allowed", "verdict"};
   for (const reports::Gate& gate : result.gates) {
     if (gate.kind != "agreement") continue;
     for (const reports::Check& check : gate.checks) {
       const std::string what = check.what.substr(0, check.what.find(':'));
-      page.rows.push_back({fmt::format("{}: {}", gate.id, what),
-                           gate.quantity,
-                           {cell(check.value), check.predicted ? cell(*check.predicted) : "", cell(check.judged),
-                            cell(check.high), check.passed ? "pass" : "FAIL"},
-                           ""});
+      table.rows.push_back({fmt::format("{}: {}", gate.id, what),
+                            gate.quantity,
+                            {cell(check.value), check.predicted ? cell(*check.predicted) : "", cell(check.judged),
+                             cell(check.high), check.passed ? "pass" : "FAIL"},
+                            ""});
     }
     if (gate.checks.empty())
-      page.rows.push_back({gate.id, gate.message, {"", "", "", "", to_string(gate.verdict)}, ""});
+      table.rows.push_back({gate.id, gate.message, {"", "", "", "", to_string(gate.verdict)}, ""});
   }
+  page.sections.push_back(std::move(table));
   result.pages.emplace_back(spec.id, std::move(page));
 }
 
 void add_choices(const Case& c, const FigureSpec& spec, const std::vector<reports::Run>& runs, reports::Case& result) {
   const double time = (spec.times.empty() ? c.times : spec.times).back(), level = spec.levels.front();
   const std::string symbol = symbol_of(spec.field);
-  reports::ChoicesPage page;
+  reports::Page page;
+  reports::Page::Section table;
   page.title = title_of(c, spec);
   const Cells cells = cells_of(*c.plate, spec.cells);
   page.intro = {c.why,
@@ -286,13 +289,13 @@ void add_choices(const Case& c, const FigureSpec& spec, const std::vector<report
   for (const std::string& method : spec.methods) {
     const std::string name = method == "fem" ? "FEM" : "MPM";
     for (const char* what : {"radius at 45° [m]", "area [m²]"})
-      page.columns.push_back(fmt::format("{} {}", name, what));
-    page.columns.push_back(fmt::format("{} largest {}", name, symbol));
+      table.columns.push_back(fmt::format("{} {}", name, what));
+    table.columns.push_back(fmt::format("{} largest {}", name, symbol));
   }
   std::vector<PlateVariant> rows{{"", "Reference", *c.plate}};
   rows.insert(rows.end(), c.variants.begin(), c.variants.end());
   for (const PlateVariant& variant : rows) {
-    reports::ChoicesPage::Row row;
+    reports::Page::Row row;
     row.name = variant.id.empty() ? "default set" : variant.id;
     row.description = variant.id.empty() ? spec.choices : variant.says;
     row.reference = variant.id.empty();
@@ -323,8 +326,9 @@ void add_choices(const Case& c, const FigureSpec& spec, const std::vector<report
       picture.panels.push_back(std::move(panel));
       result.plate_figures.push_back(std::move(picture));
     }
-    page.rows.push_back(std::move(row));
+    table.rows.push_back(std::move(row));
   }
+  page.sections.push_back(std::move(table));
   result.pages.emplace_back(spec.id, std::move(page));
 }
 

@@ -76,13 +76,21 @@ std::string read_formula(Table& t, const std::string& key, const Names& variable
 void read_shape(Table& t, Case& c) {
   PlateSpec& plate = *c.plate;
   plate.width = t.need("width", positive());
+  if (t.has("rows")) {
+    plate.rows = t.need("rows", whole(1, 10'000));
+    for (const char* key : {"height", "cell_aspect"})
+      if (t.has(key))
+        t.place(key).say("found beside rows; allowed: without it: rows of square cells make the height on every mesh");
+    plate.height = plate.rows * plate.width / 100;  // of a mesh to try expressions on; each run has its own
+    return;
+  }
   plate.height = t.need("height", positive());
   plate.cell_aspect = t.get("cell_aspect", positive(), plate.cell_aspect);
 }
 
 void read_plate_material(Table& t, Case& c) {
   PlateSpec& plate = *c.plate;
-  const std::string model = t.need("model", one_of({"elastic", "tensile-damage"}));
+  const std::string model = t.need("model", one_of({"elastic", "tensile-damage", "failure-wave"}));
   material::PlaneElastic elastic;
   elastic.youngs_modulus = t.need("E", positive());
   elastic.poissons_ratio = t.must("nu", below(0.5, any_number(), "-1 < nu < 0.5")).value_or(0);
@@ -105,8 +113,22 @@ void read_plate_material(Table& t, Case& c) {
   if (of_damage("residual_stiffness"))
     damage.residual_stiffness = t.get("residual_stiffness", positive(), damage.residual_stiffness);
   if (of_damage("volumetric")) damage.trace = t.get("volumetric", one_of({"mean", "trace"})) == "trace";
+  const auto of_failure = [&](const char* key) { return t.applies(key, "model", model, {"failure-wave"}); };
+  material::FailureWave failure{elastic, 0, 0};
+  if (of_failure("threshold")) failure.threshold = t.need("threshold", not_negative());
+  if (of_failure("f_max")) {
+    failure.most_converted = t.must("f_max", not_negative()).value_or(0);
+    if (failure.most_converted > 1)
+      t.place("f_max").refuse(words(failure.most_converted), "0 to 1, a part of the shear energy");
+  }
+  if (model == "failure-wave" && elastic.plane == material::Plane::stress)
+    t.place("plane").refuse("\"stress\" of a failure wave", "\"strain\"");
+  if (model == "failure-wave" && plate.compression)
+    t.place("compression").say("found beside a failure wave; allowed: without");
   if (model == "tensile-damage")
     plate.material = damage;
+  else if (model == "failure-wave")
+    plate.material = failure;
   else
     plate.material = elastic;
 }
@@ -174,9 +196,45 @@ void read_diffusion(Table& t, Case& c) {
   c.plate->evolution->diffusion = d;
 }
 
+/// Of the dilatancy of a failure wave.
+diffusion::Spread read_spread(Table& t) {
+  using diffusion::Profile;  // in the order of its names
+  diffusion::Spread spread;
+  spread.diffusivity = t.need("d0", not_negative());
+  const Names profiles{"falling", "constant", "rising"};
+  spread.profile = in_order<Profile>(t.need("profile", one_of(profiles)), profiles);
+  spread.scheme = read_scheme(t, spread.scheme);
+  return spread;
+}
+
+void read_dilatancy(Table& t, Case& c) {
+  PlateSpec& plate = *c.plate;
+  plate.spread = read_spread(t);
+  plate.spread->drift = t.get("drift", not_negative(), 0);
+  if (plate.spread->drift > 0 && plate.spread->scheme == diffusion::Scheme::crank_nicolson)
+    t.place("drift").refuse(words(plate.spread->drift) + " with \"crank-nicolson\"",
+                            "0: it does not damp what a stale factorisation gets wrong");
+  plate.spread->keeps_largest = t.get("face_holds", one_of({"present", "largest"})) == "largest";
+  if (!t.has("face")) return;
+  plate.face = t.need("face", not_negative());
+  if (plate.width > 0 && *plate.face > plate.width)
+    t.place("face").refuse(words(*plate.face), "a place in the plate, 0 to " + words(plate.width) + " m");
+}
+
 /// Of anything, in a scene without a material.
 void read_pure_diffusion(Table& t, Case& c) {
   PureDiffusion d;
+  const std::string law = t.get("law", one_of({"given", "dilatancy"}), "given");
+  if (law == "dilatancy") {
+    d.spread = read_spread(t);
+    d.scheme = d.spread->scheme;
+    for (const char* key : {"diffusivity", "rate", "corner_rate", "reading"})
+      if (t.has(key)) t.place(key).say("found with law = \"dilatancy\"; allowed: d0, profile and scheme");
+    c.plate->diffusion = d;
+    return;
+  }
+  for (const char* key : {"d0", "profile"})
+    if (t.has(key)) t.place(key).say("found without law = \"dilatancy\"; allowed: with it");
   d.diffusivity = t.must("diffusivity", constant_formula()).value_or("1");
   check_expression(t.place("diffusivity"), d.diffusivity, {"x", "y"}, c);
   d.rate = read_formula(t, "rate", {"x", "y", "t"}, c);
@@ -239,15 +297,48 @@ void read_plate_initial(Table& t, Case& c) {
   if (c.plate->material) {
     c.plate->initial_velocity = read_components<2>(t, "velocity", {"x", "y"}, c);
     c.plate->initial_displacement = read_components<2>(t, "displacement", {"x", "y"}, c);
-  } else {
+    if (c.plate->spread) c.plate->initial_concentration = read_formula(t, "dilatancy", {"x", "y"}, c);
+  } else if (!c.plate->diffusion || !c.plate->diffusion->spread) {
     c.plate->initial_concentration = read_formula(t, "concentration", {"x", "y"}, c);
   }
+}
+
+void read_flyer(Table& t, Case& c) {
+  FlyerSpec flyer;
+  flyer.thickness = t.need("thickness", positive());
+  flyer.velocity = t.need("velocity", positive());
+  const Measured gap = t.maybe("gap", with_unit({"m", "cells"}, not_negative())).value_or(Measured{0, "m"});
+  flyer.gap = gap.value;
+  flyer.gap_unit = gap.unit;
+  const double width = c.plate->width;
+  if (width > 0 && flyer.thickness >= width)
+    t.place("thickness")
+        .refuse(words(flyer.thickness), "less than the plate's width, " + words(width) + ": the rest is the target");
+  using Support = Edge::Support;
+  for (std::size_t side = 0; side < 4; ++side)
+    if (c.plate->supports[side] == Support::driven || c.plate->supports[side] == Support::platen)
+      t.say("found beside a driven side or a platen; allowed: free sides, rollers and fixed ones");
+  c.plate->flyer = flyer;
+}
+
+/// Eq. 21; the other form stands in no plate yet.
+void read_plate_viscosity(Table& t, Case& c) {
+  material::Viscosity v;
+  t.need("form", one_of({"york"}));
+  v.c1 = t.need("c1", not_negative());
+  v.c2 = t.need("c2", not_negative());
+  v.bulk = t.get("bulk", positive(), v.bulk);
+  v.length = t.get("length", positive(), v.length);
+  v.always = t.get("acts", one_of({"compression", "always"})) == "always";
+  c.plate->viscosity = v;
 }
 
 void read_plate_exact(Table& t, Case& c) {
   PlateExact& exact = c.plate->exact;
   const Names modes{"lame-mode", "roller-mode", "p-wave", "s-wave"};
-  Names solutions = c.plate->material ? modes : Names{"corner-source"};
+  const bool spreads = c.plate->diffusion && c.plate->diffusion->spread;
+  Names solutions = c.plate->material ? modes : spreads ? Names{"face-front"} : Names{"corner-source"};
+  if (c.plate->material) solutions.push_back("plate-impact");
   solutions.push_back("expressions");
   exact.solution = t.need("solution", one_of(solutions, "without an exact solution leave out the whole table [exact]"));
   const auto of = [&](const char* key, const Names& owners) {
@@ -278,6 +369,16 @@ void read_plate_exact(Table& t, Case& c) {
     t.place("solution").refuse("\"lame-mode\" of a plate that is held", "with four free sides");
   if ((exact.solution == "roller-mode" || exact.solution == "p-wave") && !all_are(Support::roller))
     t.place("solution").refuse(words(exact.solution) + " of a plate held otherwise", "with four sides on rollers");
+  if (exact.solution == "plate-impact") {
+    const auto& s = c.plate->supports;
+    const auto place = t.place("solution");
+    if (!c.plate->flyer) place.refuse("\"plate-impact\" without a flyer", "with [flyer]");
+    if (!std::holds_alternative<material::PlaneElastic>(*c.plate->material))
+      place.refuse("\"plate-impact\" of a solid that fails", "of an elastic one");
+    if (s[0] != Support::free || s[1] != Support::free || s[2] != Support::roller || s[3] != Support::roller)
+      place.refuse("\"plate-impact\" of a plate held otherwise",
+                   "with the left and right sides free and the others on rollers");
+  }
   const bool square = !(c.plate->width > 0 && c.plate->height > 0) ||
                       std::abs(c.plate->width - c.plate->height) <= 1e-12 * c.plate->width;
   if (!square && (exact.solution == "lame-mode" || exact.solution == "roller-mode"))
@@ -293,7 +394,7 @@ void read_scene(Table& file, Case& c) {
   file.maybe_table("material", [&](Table& t) { read_plate_material(t, c); });
   file.maybe_table("parameters", [&](Table& t) { read_parameters(t, c); });
   if (!c.plate->material) {
-    for (const char* key : {"supports", "damage", "load", "body_force"})
+    for (const char* key : {"supports", "damage", "load", "body_force", "flyer", "viscosity"})
       if (file.has(key)) file.place(key).say("found in a scene without [material]; allowed: with one");
     file.table("diffusion", [&](Table& t) { read_pure_diffusion(t, c); });
   } else {
@@ -302,8 +403,17 @@ void read_scene(Table& file, Case& c) {
       file.table("damage", [&](Table& t) { read_damage(t, c); });
     else if (file.has("damage"))
       file.place("damage").say("found beside an elastic material; allowed: with material.model = \"tensile-damage\"");
-    file.maybe_table("diffusion", [&](Table& t) { read_diffusion(t, c); });
+    if (std::holds_alternative<material::FailureWave>(*c.plate->material))
+      file.table("diffusion", [&](Table& t) { read_dilatancy(t, c); });
+    else
+      file.maybe_table("diffusion", [&](Table& t) { read_diffusion(t, c); });
     file.table("supports", [&](Table& t) { read_plate_supports(t, c); });
+    file.maybe_table("flyer", [&](Table& t) { read_flyer(t, c); });
+    file.maybe_table("viscosity", [&](Table& t) { read_plate_viscosity(t, c); });
+    if (c.plate->flyer && c.plate->face)
+      file.place("flyer").say("found beside diffusion.face; allowed: one of them: the flyer's face is the impact face");
+    if (c.plate->flyer && file.has("initial"))
+      file.place("initial").say("found beside [flyer], which sets the start; allowed: one of them");
     file.each("load", [&](Table& t) { read_plate_load(t, c); });
     file.maybe_table("body_force", [&](Table& t) {
       c.plate->body_force = read_components<2>(t, "acceleration", {"x", "y", "t"}, c);
@@ -364,7 +474,8 @@ void read_variant(Table& t, Table& file, Case& c) {
   variant.id = t.need("id", id());
   variant.says = t.need("says", text());
   Node scene = *file.itself().node;
-  const Names allowed{"plate", "material", "damage", "diffusion", "supports", "load", "body_force", "initial"};
+  const Names allowed{"plate",     "material", "damage",     "diffusion", "supports", "flyer",
+                      "viscosity", "load",     "body_force", "initial",   "exact"};
   const auto known = [&](const Place& place, const std::string& key) {
     if (contains(allowed, split_key(key).front())) return true;
     place.refuse(words(key), "keys of the scene's tables, like \"damage.rate\": " + joined(allowed));
@@ -400,7 +511,8 @@ PlateProbe read_plate_probe(Table& t, const Case& c) {
     reads = {"displacement-x", "displacement-y", "velocity-x", "velocity-y", "stress-xx", "stress-yy", "stress-xy"};
     if (c.plate->evolution)
       reads.insert(reads.end(), {"radius", "area", "largest", "acoustic-ratio", "acoustic-angle"});
-    if (c.plate->evolution && c.plate->evolution->diffusion) reads.insert(reads.end(), {"concentration", "total"});
+    if ((c.plate->evolution && c.plate->evolution->diffusion) || c.plate->spread)
+      reads.insert(reads.end(), {"concentration", "total"});
   }
   probe.reads = t.need("reads", one_of(reads));
   const auto of = [&](const char* key, const Names& owners) { return t.applies(key, "reads", probe.reads, owners); };
@@ -425,6 +537,18 @@ PlateProbe read_plate_probe(Table& t, const Case& c) {
   return probe;
 }
 
+GaugeSpec read_gauge(Table& t, const Case& c) {
+  GaugeSpec gauge{t.need("id", id()), t.need("from_face", positive())};
+  const PlateSpec& plate = *c.plate;
+  if (!plate.flyer)
+    t.place("from_face").say("found without [flyer]; allowed: with one: a gauge's place counts from the impact face");
+  else if (plate.width > 0 && plate.flyer->thickness + gauge.from_face > plate.width)
+    t.place("from_face")
+        .refuse(words(gauge.from_face),
+                "in the target, whose thickness is " + words(plate.width - plate.flyer->thickness) + " m");
+  return gauge;
+}
+
 void read_plate_sample(Table& t, Case& c) {
   t.table("times", [&](Table& s) {
     c.time_unit = s.need("unit", one_of({"s"}));
@@ -434,6 +558,7 @@ void read_plate_sample(Table& t, Case& c) {
     c.times.clear();
   });
   c.plate_probes = read_each<PlateProbe>(t, "probes", c, read_plate_probe);
+  c.gauges = read_each<GaugeSpec>(t, "gauges", c, read_gauge);
 }
 
 void check_plate_features(const Place& place, const Case& c) {
@@ -453,10 +578,23 @@ void check_meshes(const Place& place, const Case& c) {
   if (!(c.plate->width > 0) || !(c.plate->height > 0)) return;
   constexpr double most = 1e8;
   for (const int cells : all_axes(c).cells) {
-    const double up = c.plate->height * cells / (c.plate->width * c.plate->cell_aspect);
+    const double up =
+        c.plate->rows > 0 ? c.plate->rows : c.plate->height * cells / (c.plate->width * c.plate->cell_aspect);
     if (!(up * cells <= most)) {  // before it is made a whole number
       place.say(fmt::format("found {} × {:g} cells; allowed: at most {:g}", cells, up, most));
     }
+  }
+}
+
+/// The impact face is a column of nodes on every mesh.
+void check_face(const Place& place, const char* what, double at, const Case& c) {
+  if (!(c.plate->width > 0)) return;
+  for (const int cells : all_axes(c).cells) {
+    const double column = at * cells / c.plate->width;
+    if (std::abs(column - std::round(column)) <= 1e-9 * cells) continue;
+    place.refuse(fmt::format("{} at {:g} cells of the mesh of {} cells", what, column, cells),
+                 "on a column of nodes on every mesh");
+    return;
   }
 }
 
@@ -477,6 +615,10 @@ void check_mpm(const AxesBlock& block, const Case& c) {
     block.method.say(
         "found MPM together with finite displacements and a load, a driven side or a platen; allowed: free sides, "
         "rollers and fixed ones: the others stand on the grid, which the particles leave");
+  if (c.convected && (c.plate->flyer || c.plate->viscosity || c.plate->spread))
+    block.method.say(
+        "found MPM together with finite displacements and a flyer, a failure wave or viscosity; allowed: "
+        "\"infinitesimal\": the grid follows the material");
 }
 
 /// Expressions are tried at the sample times, which are read, and found wrong, only after the scene.
@@ -502,8 +644,9 @@ void read_plate_case(Table& file, Case& c) {
       c.plate->pic = t.get("pic", not_negative());
       if (c.plate->pic > 1) t.place("pic").refuse(words(c.plate->pic), "0 (FLIP) to 1 (PIC)");
     }
-    c.features = t.need("features", set_of(one_of({"elastic", "damage", "diffusion", "compression-plasticity", "platen",
-                                                   "body-force", "convection", "pic"})));
+    c.features =
+        t.need("features", set_of(one_of({"elastic", "damage", "diffusion", "compression-plasticity", "platen",
+                                          "body-force", "convection", "pic", "failure-wave", "impact", "viscosity"})));
     std::sort(c.features.begin(), c.features.end());
     if (scene_is_read) check_plate_features(t.place("features"), c);
     if (c.convected && c.plate->evolution)
@@ -521,7 +664,11 @@ void read_plate_case(Table& file, Case& c) {
   const std::vector<AxesBlock> blocks = read_all_axes(file, c, methods_of(c), {{0.25, 0.75}});
   for (const AxesBlock& block : blocks) check_mpm(block, c);
   file.table("sample", [&](Table& t) { read_plate_sample(t, c); });
-  if (scene_is_read) check_meshes(file.place("axes"), c);
+  if (scene_is_read) {
+    check_meshes(file.place("axes"), c);
+    if (c.plate->flyer) check_face(file.place("flyer"), "the impact face", c.plate->flyer->thickness, c);
+    if (c.plate->face) check_face(file.place("diffusion"), "the impact face", *c.plate->face, c);
+  }
   read_judgement(file, c);
 }
 

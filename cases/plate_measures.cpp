@@ -235,7 +235,8 @@ std::vector<reports::VtuPiece> vtu_fields(const Case& c, const Leaf& leaf, const
   };
   add("volumetric strain", snapshot.volumetric_strain, true);
   add("crack density", snapshot.crack_density, true);
-  add("concentration", snapshot.concentration, false);
+  add("dilatancy", snapshot.dilatancy, true);
+  add(snapshot.dilatancy.empty() ? "concentration" : "dilatancy of nodes", snapshot.concentration, false);
   if (!cells.arrays.empty()) pieces.push_back(std::move(cells));
   return pieces;
 }
@@ -253,6 +254,7 @@ void measure_fields(const Case& c, const Leaf& leaf, const PlateRecord& record, 
     for (const PointField* field : {&s.displacement, &s.velocity, &s.stress})
       for (const auto& component : field->component) look(component);
     look(s.crack_density);
+    look(s.dilatancy);
     look(s.concentration);
     for (const double value : s.concentration) {
       least = std::min(least, value);
@@ -268,7 +270,7 @@ void measure_fields(const Case& c, const Leaf& leaf, const PlateRecord& record, 
   double total = 0;
   const auto& values = record.snapshots.back().concentration;
   for (std::size_t k = 0; k < values.size(); ++k) total += values[k] * node_area(grid, k);
-  if (record.fed != 0) run.measures["concentration.balance"] = total / record.fed - 1;
+  if (std::isfinite(record.fed) && record.fed != 0) run.measures["concentration.balance"] = total / record.fed - 1;
   if (most > 0) run.measures["concentration.least"] = least / most;
 }
 
@@ -302,6 +304,15 @@ Plate scaled(const Plate& plate, const PlateScale& by) {
   const auto initial = [&](const std::function<Vector(double, double)>& f, double factor) {
     return [f, times, length, factor](double x, double y) { return times(f(x / length, y / length), factor); };
   };
+  if (out.impact) {
+    out.impact->face *= length;
+    out.impact->gap *= length;
+    out.impact->velocity *= velocity;
+  }
+  for (Gauge& gauge : out.gauges) {
+    gauge.x *= length;
+    gauge.y *= length;
+  }
   if (plate.initial_velocity) out.initial_velocity = initial(plate.initial_velocity, velocity);
   if (plate.initial_displacement) out.initial_displacement = initial(plate.initial_displacement, by.displacement());
   return out;

@@ -11,11 +11,13 @@
 #include "analytic/diffusion_exact.hpp"
 #include "analytic/plane_discrete.hpp"
 #include "analytic/plane_modes.hpp"
+#include "cases/gauges.hpp"
 #include "cases/measures.hpp"
 #include "cases/messages.hpp"
 #include "cases/plate_build.hpp"
 #include "cases/plate_measures.hpp"
 #include "diffusion/concentration.hpp"
+#include "diffusion/dilatancy.hpp"
 #include "fem/plate.hpp"
 #include "mpm/plate.hpp"
 
@@ -82,10 +84,43 @@ PlateRecord run_diffusion(const Case& c, const Leaf& leaf, const Stepping& stepp
   return record;
 }
 
+/// Dilatancy alone: held on the left side from the start, with the same ceiling everywhere.
+PlateRecord run_dilatancy(const Case& c, const Leaf& leaf, const Stepping& stepping) {
+  diffusion::Spread spread = *c.plate->diffusion->spread;
+  spread.face = 0;
+  const diffusion::Grid grid = grid_of(*c.plate, leaf.cells);
+  diffusion::Dilatancy field(spread, grid);
+  const std::vector<double> ceiling(grid.cells(), 1);
+  PlateRecord record;
+  auto next = stepping.sample_after.begin();
+  for (long n = 0; n < stepping.steps; ++n) {
+    if (stepping.cancelled && *stepping.cancelled) {
+      record.outcome = Outcome::cancelled;
+      break;
+    }
+    field.advance(ceiling, stepping.time_step);
+    record.steps = n + 1;
+    if (next == stepping.sample_after.end() || *next != n + 1) continue;
+    PlateSnapshot snapshot;
+    snapshot.step = n + 1;
+    snapshot.time = static_cast<double>(n + 1) * stepping.time_step;
+    snapshot.concentration.assign(field.of_nodes().begin(), field.of_nodes().end());
+    record.snapshots.push_back(std::move(snapshot));
+    ++next;
+  }
+  record.time = static_cast<double>(record.steps) * stepping.time_step;
+  record.fed = field.fed();
+  record.features = {"diffusion"};
+  record.work.node_steps = field.node_updates();
+  record.work.bytes = field.bytes();
+  return record;
+}
+
 PlateRecord solve(const Case& c, const Plate& plate, const Leaf& leaf, const Stepping& stepping) {
   const Cells cells = cells_of(*c.plate, leaf.cells);
-  if (leaf.method == "fem") return fem::run(plate, cells, c.plate->evolution, stepping);
-  return mpm::run(plate, cells, leaf.particles, scheme_of(leaf.method), c.plate->evolution, stepping);
+  const auto spread = spread_of(c, leaf.cells);
+  if (leaf.method == "fem") return fem::run(plate, cells, c.plate->evolution, stepping, spread);
+  return mpm::run(plate, cells, leaf.particles, scheme_of(leaf.method), c.plate->evolution, stepping, spread);
 }
 
 reports::Sample measure_sample(const Case& c, const Leaf& leaf, const PlateSnapshot& snapshot, double asked,
@@ -154,7 +189,13 @@ void measure_bits(const Case& c, const Leaf& leaf, const Plate& plate, const Ste
     Case elastic = c;
     elastic.plate->material = std::get<material::TensileDamage>(*c.plate->material).elastic;
     elastic.plate->evolution.reset();
-    compare("bits.undamaged", elastic, make_plate(elastic), stepping, {}, false);
+    compare("bits.undamaged", elastic, make_plate(elastic, leaf.cells), stepping, {}, false);
+  }
+  if (asked("bits.undamaged") && c.plate->spread) {
+    Case elastic = c;
+    elastic.plate->material = std::get<material::FailureWave>(*c.plate->material).elastic;
+    elastic.plate->spread.reset();
+    compare("bits.undamaged", elastic, make_plate(elastic, leaf.cells), stepping, {}, false);
   }
 }
 
@@ -165,9 +206,10 @@ void measure_against_forward_euler(const Case& c, const Leaf& leaf, const Plate&
   const char* quantity = "cross.forward-euler";
   if (!asks_for(c, leaf, quantity)) return;
   // It would be compared with itself: no measure, and a gate on it is INVALID.
-  if (c.plate->evolution->diffusion->scheme == diffusion::Scheme::forward_euler) return;
   Case other = c;
-  other.plate->evolution->diffusion->scheme = diffusion::Scheme::forward_euler;
+  diffusion::Scheme& scheme = c.plate->spread ? other.plate->spread->scheme : other.plate->evolution->diffusion->scheme;
+  if (scheme == diffusion::Scheme::forward_euler) return;
+  scheme = diffusion::Scheme::forward_euler;
   const long parts = static_cast<long>(std::ceil(stepping.time_step / step_of(other, leaf).asked));
   Stepping finer = stepping;
   finer.time_step /= static_cast<double>(parts);
@@ -229,7 +271,7 @@ TimeStep step_of(const Case& c, const Leaf& leaf) {
     return {leaf.courant * unit,
             explicit_ ? diffusion::forward_euler_limit(grid, largest) : std::numeric_limits<double>::infinity(), unit};
   }
-  const Plate plate = make_plate(c);
+  const Plate plate = make_plate(c, leaf.cells);
   const double unit = h / elastic(plate).pressure_wave_speed();
   const Cells cells = cells_of(spec, leaf.cells);
   const double limit = leaf.method == "fem"
@@ -240,6 +282,8 @@ TimeStep step_of(const Case& c, const Leaf& leaf) {
   if (spec.evolution && spec.evolution->diffusion &&
       spec.evolution->diffusion->scheme == diffusion::Scheme::forward_euler)
     asked = std::min(asked, diffusion::forward_euler_limit(grid, spec.evolution->diffusion->mobility));
+  if (spec.spread && spec.spread->scheme == diffusion::Scheme::forward_euler && spec.spread->diffusivity > 0)
+    asked = std::min(asked, diffusion::forward_euler_limit(grid, spec.spread->diffusivity));
   return {asked, limit, unit};
 }
 
@@ -277,9 +321,11 @@ reports::Run run_plate(const Case& whole, const Leaf& leaf, const Running& runni
     run.status = "completed";
     return run;
   }
-  const Plate plate = mechanical(c) ? make_plate(c) : Plate{};
+  const Plate plate = mechanical(c) ? make_plate(c, leaf.cells) : Plate{};
   const auto begin = std::chrono::steady_clock::now();
-  const PlateRecord record = mechanical(c) ? solve(c, plate, leaf, stepping) : run_diffusion(c, leaf, stepping);
+  const PlateRecord record = mechanical(c)                ? solve(c, plate, leaf, stepping)
+                             : c.plate->diffusion->spread ? run_dilatancy(c, leaf, stepping)
+                                                          : run_diffusion(c, leaf, stepping);
   run.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   take_outcome(record, run);
   if (record.outcome != Outcome::completed) return run;
@@ -292,11 +338,15 @@ reports::Run run_plate(const Case& whole, const Leaf& leaf, const Running& runni
     run.platen.y.push_back(record.platen[n]);
   }
   measure_fields(c, leaf, record, run);
+  if (record.diffusion_updates > 0)
+    run.measures["diffusion.updates"] =
+        static_cast<double>(record.diffusion_updates) / static_cast<double>(record.steps);
+  measure_gauges(c, leaf, record, stepping.time_step, run);
   if (mechanical(c)) {
     const double mass = elastic(plate).density * plate.width * plate.height;
     if (c.ledger) measure_ledger(mass, record.sums, record.ledger, run);
     measure_bits(c, leaf, plate, stepping, record, run);
-    if (c.plate->evolution && c.plate->evolution->diffusion)
+    if ((c.plate->evolution && c.plate->evolution->diffusion) || c.plate->spread)
       measure_against_forward_euler(c, leaf, plate, stepping, record, run);
     measure_limit(c, leaf, plate, step, running.cancelled, run);
   }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "diffusion/damage_evolution.hpp"
+#include "diffusion/dilatancy.hpp"
 #include "material/plate.hpp"
 
 namespace diptych::cases {
@@ -24,12 +25,21 @@ struct SideLoad {
   double start = 0, rise = 0, duration = 0;  ///< [s]
 };
 
+/// A flyer on the left that strikes the rest of the plate.
+struct FlyerSpec {
+  double thickness = 0;        ///< [m]
+  double velocity = 0;         ///< [m/s]
+  double gap = 0;              ///< to the target at the start, in `gap_unit`
+  std::string gap_unit = "m";  ///< "m" or "cells"
+};
+
 /// Two or three components, each an expression of x, y and t or of x and y; empty: none.
 using Pair = std::array<std::string, 2>;
 using Triple = std::array<std::string, 3>;
 
 struct PlateExact {
-  /// "lame-mode", "roller-mode", "p-wave", "s-wave"; of diffusion alone "corner-source"; "expressions" or "none".
+  /// "lame-mode", "roller-mode", "p-wave", "s-wave", "plate-impact"; of diffusion alone "corner-source", "face-front";
+  /// "expressions" or "none".
   std::string solution = "none";
   int mode = 1;
   double amplitude = 0;
@@ -47,21 +57,28 @@ struct PureDiffusion {
   double corner_rate = 0;         ///< a source at the origin's node, of the quarter plane [C m²/s]
   diffusion::Scheme scheme = diffusion::Scheme::forward_euler;
   diffusion::Reading reading = diffusion::Reading::isotropic;
+  /// Instead of all these: a dilatancy of 1 held on the left side spreads, the ceiling being 1 everywhere.
+  std::optional<diffusion::Spread> spread;
 };
 
 struct PlateSpec {
   double width = 0, height = 0;  ///< L_x, L_y [m]
   double cell_aspect = 1;        ///< height of a cell / its width
+  int rows = 0;                  ///< of cells, whatever the mesh: the height follows; 0: the height is given
   double pic = 0;
   std::optional<PlateMaterial> material;  ///< none: diffusion alone
   std::optional<material::Compression> compression;
   std::optional<diffusion::Evolution> evolution;  ///< with tensile damage
   std::optional<PureDiffusion> diffusion;         ///< without a material
-  std::array<Edge::Support, 4> supports{};        ///< by Side
+  std::optional<diffusion::Spread> spread;        ///< with a failure wave
+  std::optional<double> face;                     ///< impact face of a failure wave without a flyer [m]
+  std::optional<FlyerSpec> flyer;
+  std::optional<material::Viscosity> viscosity;
+  std::array<Edge::Support, 4> supports{};  ///< by Side
   std::vector<SideLoad> loads;
   Pair drive, body_force;                       ///< of x, y and t
   Pair initial_velocity, initial_displacement;  ///< of x and y
-  std::string initial_concentration;            ///< of x and y
+  std::string initial_concentration;            ///< of x and y; C, or V_d of a failure wave
   PlateExact exact;
 };
 
@@ -76,6 +93,12 @@ struct PlateProbe {
   double x = 0, y = 0;  ///< [m]
   double angle = 0;     ///< from the x axis [degrees]
   double level = 0;     ///< of C_d
+};
+
+/// Stress is read there at every step.
+struct GaugeSpec {
+  std::string id;
+  double from_face = 0;  ///< distance from the impact face, in the target [m]
 };
 
 /// The plate with some keys set otherwise.

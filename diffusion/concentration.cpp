@@ -10,6 +10,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "diffusion/cholesky.hpp"
@@ -82,7 +83,8 @@ struct Concentration::Parts {
   std::vector<double> scale;               // dt / volume
   double scaled_for = -1;
   std::vector<std::size_t> fed_nodes;  // whose source is not zero in this step
-  double fed = 0;
+  std::vector<std::size_t> held;       // keep their values; in order
+  double fed = 0, drawn = 0;           // by the source; from the held nodes
   long node_updates = 0, factorisations = 0;
 
   NodeField next, before;  // sub-cycling: next; RKL2: two stages back and the first one's increment
@@ -92,6 +94,8 @@ struct Concentration::Parts {
   std::vector<double> factorised, right, ground;
   double factorised_dt = -1;
   std::size_t ground_node = 0;
+  std::vector<std::pair<std::size_t, double>> ties;  // of a node to a held one: θ dt times the face, as factorised
+  std::vector<std::size_t> loose;  // nodes that faces join to others but not to a held one, as factorised; in order
 
   Parts(const Grid& g, Scheme s, Reading r, double dr)
       : grid(g), scheme(s), reading(r), drift(dr), row(static_cast<std::size_t>(g.nx) + 1) {
@@ -206,6 +210,34 @@ struct Concentration::Parts {
 
   double limit() const { return 1 / (largest * unit_row_sum); }
 
+  bool is_held(std::size_t k) const { return std::ranges::binary_search(held, k); }
+
+  void hold(std::vector<std::size_t> nodes) {
+    require(std::ranges::all_of(nodes, [&](std::size_t k) { return k < volume.size(); }),
+            "a node to be held is not in the grid");
+    std::ranges::sort(nodes);
+    nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
+    held = std::move(nodes);
+    scaled_for = factorised_dt = -1;
+  }
+
+  /// The next node (right, left, above, below) and the face to it; a face of no conductance where there is none.
+  std::array<std::pair<std::size_t, double>, 4> neighbours(std::size_t k) const {
+    const double *e = east.data() + k, *n = north.data() + k;
+    return {{{k + 1, e[0]}, {k - 1, e[-1]}, {k + row, n[0]}, {k - row, n[-static_cast<std::ptrdiff_t>(row)]}}};
+  }
+
+  /// What flows into the held nodes per unit time.
+  double into_held(const double* u) const {
+    double sum = 0;
+    for (const std::size_t k : held) {
+      for (const auto& [other, face] : neighbours(k)) {
+        if (face > 0 && !is_held(other)) sum += face * (u[other] - u[k]);
+      }
+    }
+    return sum;
+  }
+
   void take(std::span<const double> d) {
     if (std::ranges::equal(d, diffusivity)) return;
     constexpr double greatest = std::numeric_limits<double>::max();
@@ -242,12 +274,18 @@ struct Concentration::Parts {
         rate += volume[k] * source[k];
       }
     }
+    if (!held.empty() && !fed_nodes.empty()) {
+      std::erase_if(fed_nodes, [&](std::size_t k) { return is_held(k); });
+      rate = 0;
+      for (const std::size_t k : fed_nodes) rate += volume[k] * source[k];
+    }
     fed += dt * rate;
   }
 
   void set_scale(double dt) {
     if (dt == scaled_for) return;
     for (std::size_t k = 0; k < scale.size(); ++k) scale[k] = dt / volume[k];
+    for (const std::size_t k : held) scale[k] = 0;
     scaled_for = dt;
   }
 
@@ -272,13 +310,15 @@ struct Concentration::Parts {
       double* __restrict out = next.data();
       sweep(u, [=](std::ptrdiff_t k, double inflow) { out[k] = u[k] + s[k] * inflow; });
       for (const std::size_t k : fed_nodes) out[k] += part * source[k];
+      drawn -= part * into_held(u);
       std::swap(c, next);
     }
     node_updates += parts * static_cast<long>(volume.size());
   }
 
   /// Meyer, Balsara & Aslam, J. Comput. Phys. 257:594 (2014), eqs. 14–18, for the increment y = Y − C: a uniform C then
-  /// stays so to the bit, and mass is lost only to the increment's round-off.
+  /// stays so to the bit, and mass is lost only to the increment's round-off. What flows into the held nodes obeys the
+  /// same recursion.
   void rkl2(std::span<const double> source, double dt) {
     const double parts = dt / (limit() * (1 + 1e-12));
     long stages = std::max(3L, static_cast<long>(std::ceil((std::sqrt(9 + 16 * parts) - 1) / 2)));
@@ -292,6 +332,8 @@ struct Concentration::Parts {
     double *y = next.data(), *z = before.data();
     sweep(c.data(), [=](std::ptrdiff_t k, double inflow) { m[k] = a[k] * inflow; });
     for (const std::size_t k : fed_nodes) m[k] += dt * source[k];
+    const double into = dt * into_held(c.data());
+    double flown = b(1) * w * into, flown_before = 0;
     for (std::size_t k = 0; k < first.size(); ++k) {
       y[k] = b(1) * w * m[k];
       z[k] = 0;
@@ -305,10 +347,13 @@ struct Concentration::Parts {
       sweep(yr, [=](std::ptrdiff_t k, double inflow) {
         zr[k] = mu * yr[k] + nu * zr[k] + mu_w * (a[k] * inflow) + constant * m[k];
       });
+      flown_before = mu * flown + nu * flown_before + mu_w * (dt * into_held(y)) + constant * into;
+      std::swap(flown, flown_before);
       std::swap(y, z);
     }
     double* __restrict u = c.data();
     for (std::size_t k = 0; k < first.size(); ++k) u[k] += y[k];
+    drawn -= flown;
     node_updates += stages * static_cast<long>(volume.size());
   }
 
@@ -333,16 +378,60 @@ struct Concentration::Parts {
     if (dt != factorised_dt) return false;
     const double near = drift * *std::ranges::max_element(factorised), slack = 1 / (unit_row_sum * dt);
     for (std::size_t i = 0; i < diffusivity.size(); ++i) {
-      const double d = diffusivity[i], held = factorised[i];
-      if (!(std::abs(d - held) <= near && d - 2 * held <= slack)) return false;
+      const double d = diffusivity[i], then = factorised[i];
+      if (!(std::abs(d - then) <= near && d - 2 * then <= slack)) return false;
     }
-    return true;
+    // Beside held nodes the same faces must conduct: which nodes are loose hangs on it.
+    return held.empty() ||
+           std::ranges::equal(diffusivity, factorised, [](double d, double then) { return (d > 0) == (then > 0); });
+  }
+
+  /// Where the column of node k begins among the matrix' entries: itself, its right and its upper neighbour.
+  std::size_t entry(std::size_t k) const {
+    const std::size_t i = k % row, j = k / row;
+    return j * (3 * columns() + 2) + (j < rows() ? 3 : 2) * i;
+  }
+
+  /// The increment of a held node is zero: only the diagonal stands in its row and column. Returns the loose node of
+  /// the largest K, to be tied down, and that K, or zero.
+  std::pair<std::size_t, double> eliminate(std::span<double> entries, double step) {
+    ties.clear();
+    loose.clear();
+    std::vector<unsigned char> reached(volume.size(), 0);
+    for (const std::size_t k : held) {
+      reached[k] = 1;
+      if (k % row < columns()) entries[entry(k) + 1] = 0;
+      if (k / row < rows()) entries[entry(k + 1) - 1] = 0;
+      if (k % row > 0) entries[entry(k - 1) + 1] = 0;
+      if (k >= row) entries[entry(k - row + 1) - 1] = 0;
+      for (const auto& [other, face] : neighbours(k)) {
+        if (face > 0 && !is_held(other)) ties.emplace_back(other, step * face);
+      }
+    }
+    std::vector<std::size_t> from = held;
+    while (!from.empty()) {
+      const std::size_t k = from.back();
+      from.pop_back();
+      for (const auto& [other, face] : neighbours(k)) {
+        if (!(face > 0) || reached[other]) continue;
+        reached[other] = 1;
+        from.push_back(other);
+      }
+    }
+    std::pair<std::size_t, double> stiffest{0, 0};
+    for (std::size_t k = 0; k < volume.size(); ++k) {
+      const double sum = step * conductance(k);
+      if (reached[k] || !(sum > 0)) continue;
+      loose.push_back(k);
+      if (sum > stiffest.second) stiffest = {k, sum};
+    }
+    return stiffest;
   }
 
   void factorise(double dt) {
     const double step = theta() * dt;
     std::span<double> entries = cholesky->entries();
-    std::size_t at = 0, diagonal = 0;
+    std::size_t at = 0;
     double top = 0;
     for (std::size_t j = 0; j <= rows(); ++j) {
       for (std::size_t i = 0; i <= columns(); ++i) {
@@ -351,17 +440,17 @@ struct Concentration::Parts {
         if (sum > top) {
           top = sum;
           ground_node = k;
-          diagonal = at;
         }
         entries[at++] = volume[k] + sum;
         if (i < columns()) entries[at++] = -step * east.data()[k];
         if (j < rows()) entries[at++] = -step * north.data()[k];
       }
     }
+    if (!held.empty()) std::tie(ground_node, top) = eliminate(entries, step);
     // Next to so large a K the volumes drown in round-off and the matrix is singular but for them. One node is tied to
-    // zero instead, which the solution corrects for (Sherman & Morrison 1950).
-    const bool drowned = step * largest * unit_row_sum > 1e8;
-    if (drowned) entries[diagonal] += top;
+    // zero instead, which the solution corrects for (Sherman & Morrison 1950). What reaches a held node is tied by it.
+    const bool drowned = step * largest * unit_row_sum > 1e8 && top > 0;
+    if (drowned) entries[entry(ground_node)] += top;
     factorised_dt = -1;  // unless it succeeds
     cholesky->factorise();
     ++factorisations;
@@ -382,6 +471,7 @@ struct Concentration::Parts {
     if (!factor_serves(dt)) factorise(dt);
     double* __restrict r = right.data();
     sweep(c.data(), [=](std::ptrdiff_t k, double inflow) { r[k] = dt * inflow; });
+    if (!held.empty()) return solve_beside_held(source, dt);
     double given = 0, gained = 0, whole = 0;
     for (const std::size_t k : fed_nodes) {
       r[k] += dt * volume[k] * source[k];
@@ -404,6 +494,28 @@ struct Concentration::Parts {
       const double missing = (given - gained) / whole;
       for (std::size_t k = 0; k < delta.size(); ++k) u[k] += delta[k] + missing * ground[k];
     }
+    node_updates += 2 * static_cast<long>(volume.size());
+  }
+
+  /// The same with K C in place. Held nodes fix what reaches them; the content of the loose ones is known as above.
+  void solve_beside_held(std::span<const double> source, double dt) {
+    drawn -= dt * into_held(c.data());
+    for (const std::size_t k : held) right[k] = 0;
+    for (const std::size_t k : fed_nodes) right[k] += dt * volume[k] * source[k];
+    const std::span<const double> delta = cholesky->solve(right);
+    for (const auto& [k, tie] : ties) drawn -= tie * delta[k];
+    double* u = c.data();
+    for (std::size_t k = 0; k < delta.size(); ++k) u[k] += delta[k];
+    double missing = 0, whole = 0;
+    const auto weight = [&](std::size_t k) { return ground.empty() ? 1 : ground[k]; };
+    for (const std::size_t k : fed_nodes) {
+      if (std::ranges::binary_search(loose, k)) missing += dt * volume[k] * source[k];
+    }
+    for (const std::size_t k : loose) {
+      missing -= volume[k] * delta[k];
+      whole += volume[k] * weight(k);
+    }
+    for (const std::size_t k : loose) u[k] += missing / whole * weight(k);
     node_updates += 2 * static_cast<long>(volume.size());
   }
 };
@@ -457,13 +569,17 @@ double Concentration::total() const {
   return sum;
 }
 
-double Concentration::fed() const { return parts_->fed; }
+void Concentration::hold(std::vector<std::size_t> nodes) { parts_->hold(std::move(nodes)); }
+
+double Concentration::fed() const { return parts_->fed + parts_->drawn; }
+double Concentration::drawn() const { return parts_->drawn; }
 long Concentration::node_updates() const { return parts_->node_updates; }
 long Concentration::factorisations() const { return parts_->factorisations; }
 
 std::size_t Concentration::bytes() const {
   const Parts& p = *parts_;
-  std::size_t sum = sizeof(Parts) + p.fed_nodes.capacity() * sizeof(std::size_t);
+  std::size_t sum = sizeof(Parts) + p.ties.capacity() * sizeof(p.ties[0]) +
+                    (p.fed_nodes.capacity() + p.held.capacity() + p.loose.capacity()) * sizeof(std::size_t);
   for (const NodeField* f : {&p.c, &p.east, &p.north, &p.next, &p.before}) sum += f->bytes();
   for (const std::vector<double>* v :
        {&p.volume, &p.diffusivity, &p.weight_x, &p.weight_y, &p.scale, &p.first, &p.factorised, &p.right, &p.ground})

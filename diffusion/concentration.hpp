@@ -47,6 +47,11 @@ class Concentration {
   std::span<double> values();  ///< of nodes
   std::span<const double> values() const;
 
+  /// From now on these nodes, and no others, keep what values() says, which the caller may change between steps; with
+  /// their neighbours they exchange as before. A source there does nothing. Throws std::invalid_argument for a node
+  /// that is not in the grid.
+  void hold(std::vector<std::size_t> nodes);
+
   /// One step of dt [s]. diffusivity: of each cell, ≥ 0 [m²/s]. source: of each node, the mean over its control volume
   /// [units of C per s]. Throws std::invalid_argument where forward Euler is unstable, naming both numbers: dt above
   /// forward_euler_limit for the largest diffusivity given, below which it is also positive (radial: above the least
@@ -55,7 +60,8 @@ class Concentration {
 
   /// ∫C dA [units of C · m²]. Radial: ∫C dA/r, which is what that reading conserves [units of C · m].
   double total() const;
-  double fed() const;           ///< what the source has given since the start, measured as total() is
+  double fed() const;    ///< what source and held nodes have given the others since the start, measured as total() is
+  double drawn() const;  ///< of it, what has flowed out of held nodes; to the round-off of dt d/h² times their content
   long node_updates() const;    ///< deterministic work: operator applications or back-substitutions, times nodes
   long factorisations() const;  ///< of the implicit schemes
   std::size_t bytes() const;

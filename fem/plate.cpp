@@ -101,15 +101,69 @@ struct Cracked {
   Stiffness stiffness;
 };
 
+/// What viscosity does in a row of cells.
+struct Drag {
+  double largest = 0;  ///< |D| where it acts [1/s]
+  bool acted = false;  ///< at any time
+  double work = 0;     ///< ½ Σ A q tr Δε of a kick [J/m]
+};
+
+/// What a gauge reads: two cells, and how much of each.
+struct Reading {
+  Index left, right;
+  double of_left, of_right;
+};
+
+/// What a plate has beside elasticity.
+struct Kind {
+  bool damaging = false;  ///< tensile damage
+  bool plastic = false;   ///< plasticity in compression
+  bool failing = false;   ///< a failure wave
+  bool viscous = false;   ///< artificial viscosity
+};
+
+/// Of a place on a grid that is made up of so many equal parts: its coordinate in parts, exact on what stands between
+/// two of them but for round-off.
+double in_parts(double x, double length, int parts) {
+  const double place = x / length * parts, nearest = std::round(place);
+  return std::abs(place - nearest) <= 1e-9 ? nearest : place;
+}
+
 [[noreturn]] void refuse(const std::string& why) { throw std::invalid_argument("fem: " + why); }
 
-void check(const Plate& plate, const Cells& cells, const std::optional<diffusion::Evolution>& evolution) {
+void check(const Plate& plate, const Cells& cells, const std::optional<diffusion::Evolution>& evolution,
+           const std::optional<diffusion::Spread>& spread) {
   const bool damaging = std::holds_alternative<material::TensileDamage>(plate.material);
+  const bool failing = std::holds_alternative<material::FailureWave>(plate.material);
   if (cells.x < 1 || cells.y < 1) refuse("a plate needs at least one cell each way");
   if (damaging && !evolution) refuse("tensile damage needs an evolution of the crack density");
   if (!damaging && evolution) refuse("an evolution of the crack density needs tensile damage");
   if (plate.compression && elastic(plate).plane == material::Plane::stress) {
     refuse("plasticity in compression is for plane strain only");
+  }
+  if (failing && !spread) refuse("a failure wave needs the spread of its dilatancy");
+  if (!failing && spread) refuse("the spread of a dilatancy needs a failure wave");
+  if (failing && elastic(plate).plane == material::Plane::stress) refuse("a failure wave is for plane strain only");
+  if (failing && plate.compression) refuse("a failure wave has no plasticity in compression beside it");
+  if (plate.viscosity && plate.viscosity->form != material::Viscosity::Form::york) {
+    refuse("in a plate the artificial viscosity is that of eq. 21");
+  }
+  if (plate.impact) {
+    const auto found = [](double x) { return " (" + std::to_string(x) + ")"; };
+    const double face = in_parts(plate.impact->face, plate.width, cells.x);
+    if (plate.initial_velocity || plate.initial_displacement) refuse("an impact has no initial state beside it");
+    if (!(plate.impact->velocity > 0)) {
+      refuse("the velocity of an impact is > 0 m/s" + found(plate.impact->velocity));
+    }
+    if (!(face > 0 && face < cells.x && face == std::round(face))) {
+      refuse("the face of an impact is a column of nodes inside the plate, 1 to " + std::to_string(cells.x - 1) +
+             " cells from the left" + found(face));
+    }
+  }
+  for (const Gauge& gauge : plate.gauges) {
+    if (!(gauge.x >= 0 && gauge.x <= plate.width && gauge.y >= 0 && gauge.y <= plate.height)) {
+      refuse("a gauge stands outside of the plate");
+    }
   }
   for (const Edge& edge : plate.edges) {
     using enum Edge::Support;
@@ -125,15 +179,17 @@ void check(const Plate& plate, const Cells& cells, const std::optional<diffusion
   }
 }
 
-/// One plate. `damaging`: with tensile damage; `plastic`: with plasticity in compression. An elastic one has
-/// displacements and velocities of nodes and nothing else.
-template <bool damaging, bool plastic>
+/// One plate. An elastic one has displacements and velocities of nodes and nothing else.
+template <Kind kind>
 class Body {
-  static constexpr bool linear = !damaging && !plastic;
+  static constexpr bool damaging = kind.damaging, plastic = kind.plastic, failing = kind.failing,
+                        viscous = kind.viscous;
+  static constexpr bool dissipative = damaging || plastic || failing;  ///< the material itself
+  static constexpr bool linear = !dissipative && !viscous;
 
  public:
   Body(const Plate& plate, const Cells& cells, const std::optional<diffusion::Evolution>& evolution,
-       const Stepping& stepping)
+       const std::optional<diffusion::Spread>& spread, const Stepping& stepping)
       : plate_(plate),
         dt_(stepping.time_step),
         nx_(static_cast<Index>(cells.x)),
@@ -159,6 +215,8 @@ class Body {
     if constexpr (!linear) {
       stress_.resize(nx_ * ny_);
       answers_.resize(nx_ * ny_);
+    }
+    if constexpr (dissipative) {
       if (stepping.books != Books::off) {
         recoverable_.resize(nx_ * ny_);
         answered_.resize(nx_ * ny_);
@@ -171,7 +229,16 @@ class Body {
       evolution_.emplace(*evolution, diffusion::Grid{cells.x, cells.y, h_.x, h_.y});
       if (plate.initial_displacement) evolve_damage();  // a plate at rest has no strains that cracks could grow by
     }
-    if constexpr (!linear) update_stress();
+    if constexpr (failing) {
+      ceiling_.resize(nx_ * ny_);
+      dilatancy_.emplace(*spread, diffusion::Grid{cells.x, cells.y, h_.x, h_.y});
+    }
+    if constexpr (viscous) {
+      q_.resize(nx_ * ny_);
+      drag_.resize(ny_);
+    }
+    if constexpr (dissipative) update_stress();
+    place_gauges(stepping.steps);
   }
 
   // Central differences: (uⁿ, σⁿ, vⁿ⁻½) → (uⁿ⁺¹, σⁿ⁺¹, vⁿ⁺½). Forces, kick and drift go by rows, in one sweep.
@@ -184,10 +251,16 @@ class Body {
     move_platens(kick.length);
     drive_supports((static_cast<double>(n) + 0.5) * dt_);
     if (ledger) keep_work(kick.length, *ledger);
-    if (ledger) measure_energies();
-    if constexpr (damaging) evolve_damage();  // eqs. 23 to 28, staggered
+    if (ledger) {
+      measure_energies();
+      if constexpr (viscous) ledger->take_by_viscosity(viscous_work());
+    }
+    if constexpr (damaging) evolve_damage();    // eqs. 23 to 28, staggered
+    if constexpr (failing) spread_dilatancy();  // likewise
     if constexpr (!linear) update_stress();
+    if constexpr (viscous) resist();  // eqs. 21, 22
     if (ledger) close_books(*ledger);
+    if (!gauges_.empty()) read_gauges(n + 1);
   }
 
   PlateSnapshot sample(long n) const;
@@ -199,7 +272,13 @@ class Body {
     for (Index j = 0; j < ny_; ++j) {
       for (Index i = 0; i < nx_; ++i) {
         const Triangles strain = strains(at(corners_.u, middles_.u, i, j), h_);
-        for (const Tensor& e : strain) sum += h_.triangle_area() * solid_.stress(e).contract(e) / 2;
+        for (const Tensor& e : strain) {
+          if constexpr (failing) {
+            sum += h_.triangle_area() * failure().stored(e, dilatancy_->of_cells()[j * nx_ + i]);
+          } else {
+            sum += h_.triangle_area() * solid_.stress(e).contract(e) / 2;
+          }
+        }
       }
     }
     return sum + kinetic().kinetic;
@@ -215,11 +294,15 @@ class Body {
   static std::vector<Touch> touches() { return {}; }
   /// Told by what this run has built up, not by what the scene asks for.
   std::vector<std::string> features() const {
-    std::vector<std::string> active{evolution_ ? "damage" : "elastic"};
+    std::vector<std::string> active{evolution_ ? "damage" : dilatancy_ ? "failure-wave" : "elastic"};
     if (!corners_.body.x.empty()) active.push_back("body-force");
     if (!plastic_.empty()) active.push_back("compression-plasticity");
-    if (evolution_ && !evolution_->concentration().empty()) active.push_back("diffusion");
+    if (dilatancy_ || (evolution_ && !evolution_->concentration().empty())) active.push_back("diffusion");
+    if (plate_.impact) active.push_back("impact");
     if (!platens_.empty()) active.push_back("platen");
+    if (std::any_of(drag_.begin(), drag_.end(), [](const Drag& row) { return row.acted; })) {
+      active.push_back("viscosity");
+    }
     std::sort(active.begin(), active.end());
     return active;
   }
@@ -232,12 +315,18 @@ class Body {
       sum.bytes += nodes->u.bytes() + nodes->v.bytes() + nodes->body.bytes();
     for (const Band& band : bands_) sum.bytes += sizeof band + band.below.bytes() + band.first.bytes();
     sum.bytes += of(border_) + of(stress_) + of(answers_) + of(plastic_) + of(cracked_) + of(volumetric_) +
-                 of(recoverable_) + of(answered_) + of(sums_);
+                 of(ceiling_) + of(q_) + of(drag_) + of(recoverable_) + of(answered_) + of(sums_);
+    for (const GaugeRecord& g : gauges_) sum.bytes += of(g.time) + of(g.xx) + of(g.yy) + of(g.dilatancy);
     if (evolution_) sum.bytes += evolution_->bytes();
+    if (dilatancy_) sum.bytes += dilatancy_->bytes();
     return sum;
   }
   std::vector<double> take_platen() { return std::move(platen_); }
-  double fed() const { return evolution_ ? evolution_->fed() : 0; }
+  std::vector<GaugeRecord> take_gauges() { return std::move(gauges_); }
+  long diffusion_updates() const {
+    return evolution_ ? evolution_->node_updates() : dilatancy_ ? dilatancy_->node_updates() : 0;
+  }
+  double fed() const { return evolution_ ? evolution_->fed() : dilatancy_ ? dilatancy_->fed() : 0; }
 
  private:
   // ---- building up ----
@@ -306,6 +395,7 @@ class Body {
       if (plate_.initial_displacement) nodes.u.set(k, plate_.initial_displacement(x, y));
       if (plate_.initial_velocity) nodes.v.set(k, plate_.initial_velocity(x, y));
     });
+    if (plate_.impact) strike();
     for (const BorderNode& b : border_) {
       Vector v = corners_.v[b.node];
       for (const Index c : {Index{0}, Index{1}}) {
@@ -313,6 +403,35 @@ class Body {
         if (b.hold[c] == Hold::driven) v[c] = given_velocity(b, c, 0);
       }
       corners_.v.set(b.node, v);
+    }
+  }
+
+  // Half of the mass of a node on the face is the flyer's.
+  void strike() {
+    const auto face = static_cast<Index>(in_parts(plate_.impact->face, plate_.width, static_cast<int>(nx_)));
+    const double v = plate_.impact->velocity;
+    for (Index j = 0; j <= ny_; ++j) {
+      for (Index i = 0; i <= face; ++i) corners_.v.x[j * (nx_ + 1) + i] = i < face ? v : v / 2;
+    }
+    for (Index j = 0; j < ny_; ++j) {
+      for (Index i = 0; i < face; ++i) middles_.v.x[j * nx_ + i] = v;
+    }
+  }
+
+  // A gauge on a row's edge reads the row below it; one before the first or beyond the last middle reads that cell.
+  void place_gauges(long steps) {
+    for (const Gauge& gauge : plate_.gauges) {
+      const double x = in_parts(gauge.x, plate_.width, static_cast<int>(nx_)) - 0.5;
+      const double y = in_parts(gauge.y, plate_.height, static_cast<int>(ny_));
+      const double cell = std::clamp(std::floor(x), 0.0, static_cast<double>(nx_ - 1));
+      const Index row = static_cast<Index>(std::max(std::ceil(y) - 1, 0.0)), left = static_cast<Index>(cell);
+      const double of_right = left + 1 < nx_ ? std::max(x - cell, 0.0) : 0;
+      readings_.push_back({row * nx_ + left, row * nx_ + std::min(left + 1, nx_ - 1), 1 - of_right, of_right});
+      gauges_.emplace_back();
+      for (std::vector<double>* v : {&gauges_.back().time, &gauges_.back().xx, &gauges_.back().yy}) {
+        v->reserve(static_cast<Index>(steps));
+      }
+      if constexpr (failing) gauges_.back().dilatancy.reserve(static_cast<Index>(steps));
     }
   }
 
@@ -466,7 +585,11 @@ class Body {
   }
   /// The same of a cell whose triangles have answered for themselves.
   void cell_force(Index cell, Index i, const KickAndDrift& factor, CornerForces& forces) {
-    const CellValues f = internal_forces(stress_[cell], h_);
+    Triangles stress = stress_[cell];
+    if constexpr (viscous) {  // of the velocities half a step before
+      for (Index t = 0; t < 4; ++t) stress[t] = stress[t] + Tensor{q_[cell][t], q_[cell][t], 0};
+    }
+    const CellValues f = internal_forces(stress, h_);
     for (const Index c : {Index{0}, Index{1}}) {
       forces.lower_left[c][i] = f[0][c];
       forces.lower_right[c][i + 1] = f[1][c];
@@ -576,6 +699,7 @@ class Body {
   }
 
   const material::TensileDamage& damage() const { return std::get<material::TensileDamage>(plate_.material); }
+  const material::FailureWave& failure() const { return std::get<material::FailureWave>(plate_.material); }
 
   void evolve_damage() {
     for_bands([&](Band& band) {
@@ -584,6 +708,17 @@ class Body {
       }
     });
     evolution_->advance(volumetric_, dt_);
+  }
+
+  /// A ceiling that is NaN stays it: the wave has blown up.
+  void spread_dilatancy() {
+    for_bands([&](Band& band) {
+      for (Index cell = band.begin * nx_; cell < band.end * nx_; ++cell) {
+        const Tensor mean = mean_strain(at(corners_.u, middles_.u, cell % nx_, cell / nx_), h_);
+        ceiling_[cell] = failure().equivalent_stress(mean) <= failure().threshold ? 0 : failure().ceiling(mean);
+      }
+    });
+    dilatancy_->advance(ceiling_, dt_);
   }
 
   void update_stress() {
@@ -607,12 +742,19 @@ class Body {
         own = true;
       }
     }
+    double dilatancy = 0;
+    if constexpr (failing) {
+      dilatancy = dilatancy_->of_cells()[cell];
+      own = dilatancy != 0;
+    }
     if (!own && !plastic) return false;
     Triangles stress = strains(at(corners_.u, middles_.u, cell % nx_, cell / nx_), h_);
     for (Index t = 0; t < 4; ++t) {
       const Tensor strain = stress[t];
       const bool tension = strain.xx + strain.yy >= 0;
-      if constexpr (plastic) {
+      if constexpr (failing) {
+        stress[t] = failure().stress(strain, dilatancy);
+      } else if constexpr (plastic) {
         PlasticStrain& flown = plastic_[cell][t];
         if (tension) {  // plastic strain is deviatoric
           stress[t] = in_tension.stress(strain) - flown * (2 * in_tension.shear);
@@ -626,6 +768,77 @@ class Body {
     }
     if (own) stress_[cell] = stress;
     return own;
+  }
+
+  /// q of each triangle, of its rate of dilation. A whole cell that it acts in answers for itself.
+  void resist() {
+    const material::Viscosity& viscosity = *plate_.viscosity;
+    const material::PlaneElastic& solid = elastic(plate_);
+    const double speed = solid.pressure_wave_speed(), length = std::sqrt(h_.x * h_.y);
+    double largest = 0;
+    if (viscosity.needs_largest()) {
+      for_bands([&](Band& band) {
+        for (Index j = band.begin; j < band.end; ++j) {
+          drag_[j].largest = 0;
+          for (Index cell = j * nx_; cell < (j + 1) * nx_; ++cell) {
+            for (const double D : dilation(cell)) {
+              if (viscosity.acts(D)) drag_[j].largest = std::max(drag_[j].largest, std::abs(D));
+            }
+          }
+        }
+      });
+      for (const Drag& row : drag_) largest = std::max(largest, row.largest);
+    }
+    for_bands([&](Band& band) {
+      for (Index cell = band.begin * nx_; cell < band.end * nx_; ++cell) {
+        const std::array<double, 4> D = dilation(cell);
+        bool acts = false;
+        for (Index t = 0; t < 4; ++t) {
+          q_[cell][t] = viscosity.stress(D[t], largest, solid.density, speed, length);
+          acts = acts || q_[cell][t] != 0;
+        }
+        if (!acts) continue;
+        drag_[cell / nx_].acted = true;
+        if (!answers_[cell]) stress_[cell] = whole_stress(cell);
+        answers_[cell] = 1;
+      }
+    });
+  }
+  /// tr D of each triangle [1/s].
+  std::array<double, 4> dilation(Index cell) const {
+    const Triangles rate = strains(at(corners_.v, middles_.v, cell % nx_, cell / nx_), h_);
+    return {rate[0].xx + rate[0].yy, rate[1].xx + rate[1].yy, rate[2].xx + rate[2].yy, rate[3].xx + rate[3].yy};
+  }
+
+  Triangles whole_stress(Index cell) const {
+    Triangles stress = strains(at(corners_.u, middles_.u, cell % nx_, cell / nx_), h_);
+    for (Tensor& t : stress) t = solid_.stress(t);
+    return stress;
+  }
+  /// The material's, without q.
+  Triangles stress_of(Index cell) const {
+    if constexpr (!linear) {
+      if (answers_[cell]) return stress_[cell];
+    }
+    return whole_stress(cell);
+  }
+
+  void read_gauges(long n) {
+    const auto mean = [&](Index cell) {  // of pairs that change places in a mirror
+      const auto [bottom, right, top, left] = stress_of(cell);
+      return ((right + left) + (bottom + top)) * 0.25;
+    };
+    for (Index k = 0; k < gauges_.size(); ++k) {
+      const Reading& r = readings_[k];
+      const Tensor stress = mean(r.left) * r.of_left + mean(r.right) * r.of_right;
+      gauges_[k].time.push_back(static_cast<double>(n) * dt_);
+      gauges_[k].xx.push_back(stress.xx);
+      gauges_[k].yy.push_back(stress.yy);
+      if constexpr (failing) {
+        const auto dilatancy = dilatancy_->of_cells();
+        gauges_[k].dilatancy.push_back(dilatancy[r.left] * r.of_left + dilatancy[r.right] * r.of_right);
+      }
+    }
   }
 
   // ---- books ----
@@ -709,6 +922,10 @@ class Body {
   // Where cracks close, the stiffness rises again; sheared meanwhile, the solid then gives some of Dⁿ back, or more.
   // The law of eqs. 23 is such: its stress jumps where ε_v = 0. Contractions are in three dimensions: ε_p has a zz
   // component.
+  //
+  // A failure wave has an energy U(ε, V_d), and the same sum is made of Sⁿ⁺½ = Σ A [Uⁿ + ½ σⁿ:(εⁿ⁺¹ − εⁿ)] and
+  // Dⁿ = Sⁿ⁻½ − Σ A [Uⁿ − ½ σⁿ:(εⁿ − εⁿ⁻¹)]. It is of either sign: where f is not clipped U is the whole solid's, so
+  // that nothing is lost while V_d grows at rest, but σ is not ∂U/∂ε.
   void measure_energies() {
     for_bands([&](Band& band) {
       for (Index j = band.begin; j < band.end; ++j) {
@@ -718,7 +935,23 @@ class Body {
       }
     });
     sums_[ny_] = kinetic(ny_);
-    if constexpr (!linear) answered_ = answers_;
+    if constexpr (dissipative) answered_ = answers_;
+  }
+  /// ½ Σ A q tr Δεⁿ⁺½: with the old q of the kick before this strain increment, with the new one of the kick after it.
+  double viscous_work() {
+    for_bands([&](Band& band) {
+      for (Index j = band.begin; j < band.end; ++j) {
+        double sum = 0;
+        for (Index cell = j * nx_; cell < (j + 1) * nx_; ++cell) {
+          const std::array<double, 4> D = dilation(cell);
+          for (Index t = 0; t < 4; ++t) sum += q_[cell][t] * (D[t] * dt_);
+        }
+        drag_[j].work = h_.triangle_area() * sum / 2;
+      }
+    });
+    double sum = 0;
+    for (const Drag& row : drag_) sum += row.work;
+    return sum;
   }
   /// Sⁿ⁺½ of a cell.
   double recoverable(Index i, Index j) {
@@ -729,15 +962,21 @@ class Body {
     for (Index t = 0; t < 4; ++t) {
       sum += energy_between(cell, t, now[t] - rate[t] * dt_, now[t]);
     }
-    if constexpr (!linear) recoverable_[cell] = sum;
+    if constexpr (dissipative) recoverable_[cell] = sum;
     return sum;
   }
-  /// ½ A σ:(ε − ε_p) of a triangle, σ where it stands: at the strain `here`.
+  /// ½ A σ:(ε − ε_p) of a triangle, σ where it stands: at the strain `here`. Failed: A [U + ½ σ:(ε − ε here)].
   double energy_between(Index cell, Index t, const Tensor& here, const Tensor& strain) const {
     Tensor stress = solid_.stress(here);
     double flown = 0;  // σ:ε_p
     if constexpr (!linear) {
       if (answers_[cell]) stress = stress_[cell][t];
+    }
+    if constexpr (failing) {
+      const double dilatancy = dilatancy_->of_cells()[cell];
+      if (dilatancy != 0) {
+        return h_.triangle_area() * (failure().stored(here, dilatancy) + stress.contract(strain - here) / 2);
+      }
     }
     if constexpr (plastic) {
       const PlasticStrain& p = plastic_[cell][t];
@@ -752,10 +991,11 @@ class Body {
   }
 
   void close_books(Ledger& ledger) {
-    if constexpr (!linear) measure_dissipation();
+    if constexpr (dissipative) measure_dissipation();
     RowSums sum;
     for (const RowSums& row : sums_) add(sum, row);
     ledger.close_line(sum.kinetic, sum.strain, sum.dissipated, along_diagonal(sum.momentum));
+    if constexpr (viscous) ledger.take_by_viscosity(viscous_work());
   }
   /// Dⁿ⁺¹.
   void measure_dissipation() {
@@ -800,7 +1040,9 @@ class Body {
   std::vector<BorderNode> border_;
   std::array<std::vector<Index>, 4> along_;  // places in the border, by side
   std::vector<Platen> platens_;
-  std::vector<double> platen_;  // displacement of the first one after each step
+  std::vector<double> platen_;     // displacement of the first one after each step
+  std::vector<Reading> readings_;  // per gauge
+  std::vector<GaugeRecord> gauges_;
   // per cell, where not every cell is linear
   std::vector<Triangles> stress_;
   std::vector<unsigned char> answers_;  // 1 where the stress is not the whole solid's
@@ -808,6 +1050,10 @@ class Body {
   std::vector<Cracked> cracked_;
   std::vector<double> volumetric_;
   std::optional<diffusion::DamageEvolution> evolution_;
+  std::vector<double> ceiling_;
+  std::optional<diffusion::Dilatancy> dilatancy_;
+  std::vector<std::array<double, 4>> q_;  // of triangles [Pa]
+  std::vector<Drag> drag_;                // per row
   // for the books
   std::vector<RowSums> sums_;        // per row
   std::vector<double> recoverable_;  // per cell, likewise [J/m]
@@ -816,8 +1062,8 @@ class Body {
   tbb::task_arena arena_;
 };
 
-template <bool damaging, bool plastic>
-PlateSnapshot Body<damaging, plastic>::sample(long n) const {
+template <Kind kind>
+PlateSnapshot Body<kind>::sample(long n) const {
   PlateSnapshot s;
   s.step = n;
   s.time = s.displacement.time = s.stress.time = static_cast<double>(n) * dt_;
@@ -849,17 +1095,13 @@ PlateSnapshot Body<damaging, plastic>::sample(long n) const {
   for (Index j = 0; j < ny_; ++j) {
     for (Index i = 0; i < nx_; ++i) {
       const CellValues u = at(corners_.u, middles_.u, i, j);
-      Triangles stress = strains(u, h_);
-      for (Tensor& t : stress) t = solid_.stress(t);
+      const Triangles stress = stress_of(j * nx_ + i);
       const Tensor mean = mean_strain(u, h_);
       if constexpr (damaging) {
         s.volumetric_strain.push_back(damage().volumetric(mean));
         s.strain.push_back(mean);
       } else {
         s.volumetric_strain.push_back(undamaged.volumetric(mean));
-      }
-      if constexpr (!linear) {
-        if (answers_[j * nx_ + i]) stress = stress_[j * nx_ + i];
       }
       const std::array<Vector, 4> towards{{{0, -1}, {1, 0}, {0, 1}, {-1, 0}}};
       for (Index t = 0; t < 4; ++t) {
@@ -876,25 +1118,38 @@ PlateSnapshot Body<damaging, plastic>::sample(long n) const {
     s.crack_density.assign(evolution_->crack_density().begin(), evolution_->crack_density().end());
     s.concentration.assign(evolution_->concentration().begin(), evolution_->concentration().end());
   }
+  if (dilatancy_) {
+    s.dilatancy.assign(dilatancy_->of_cells().begin(), dilatancy_->of_cells().end());
+    s.concentration.assign(dilatancy_->of_nodes().begin(), dilatancy_->of_nodes().end());
+  }
   return s;
 }
 
 }  // namespace
 
 PlateRecord run(const Plate& plate, const Cells& cells, const std::optional<diffusion::Evolution>& evolution,
-                const Stepping& stepping) {
-  check(plate, cells, evolution);
-  const auto go = [&]<bool damaging, bool plastic>() {
-    Body<damaging, plastic> body(plate, cells, evolution, stepping);
+                const Stepping& stepping, const std::optional<diffusion::Spread>& spread) {
+  check(plate, cells, evolution, spread);
+  const auto go = [&]<Kind kind>() {
+    Body<kind> body(plate, cells, evolution, spread, stepping);
     PlateRecord record = take_steps<PlateRecord>(body, stepping);
     record.platen = body.take_platen();
+    record.gauges = body.take_gauges();
     record.fed = body.fed();
+    record.diffusion_updates = body.diffusion_updates();
     return record;
   };
+  const auto viscous_or_not = [&]<bool damaging, bool plastic, bool failing>() {
+    return plate.viscosity ? go.template operator()<Kind{damaging, plastic, failing, true}>()
+                           : go.template operator()<Kind{damaging, plastic, failing, false}>();
+  };
+  if (spread) return viscous_or_not.template operator()<false, false, true>();
   if (evolution) {
-    return plate.compression ? go.template operator()<true, true>() : go.template operator()<true, false>();
+    return plate.compression ? viscous_or_not.template operator()<true, true, false>()
+                             : viscous_or_not.template operator()<true, false, false>();
   }
-  return plate.compression ? go.template operator()<false, true>() : go.template operator()<false, false>();
+  return plate.compression ? viscous_or_not.template operator()<false, true, false>()
+                           : viscous_or_not.template operator()<false, false, false>();
 }
 
 }  // namespace diptych::fem

@@ -5,6 +5,7 @@
 
 #include "fem/cell.hpp"
 #include "fem/plate.hpp"
+#include "material/viscous_step.hpp"
 
 namespace diptych::fem {
 namespace {
@@ -15,11 +16,8 @@ namespace {
 constexpr int enough = 6;
 constexpr double margin = 1e-5;
 
-}  // namespace
-
-double critical_time_step(const Plate& plate, const Cells& cells) {
-  const material::PlaneElastic& solid = elastic(plate);
-  const CellSize h{plate.width / cells.x, plate.height / cells.y};
+/// 2/ω of a mesh of this solid.
+double limit(const material::PlaneElastic& solid, const CellSize& h, const Cells& cells) {
   const int nx = std::min(cells.x, enough), ny = std::min(cells.y, enough), corners = (nx + 1) * (ny + 1);
   const double cell_mass = solid.density * h.x * h.y;
 
@@ -51,6 +49,23 @@ double critical_time_step(const Plate& plate, const Cells& cells) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(dynamic, Eigen::EigenvaluesOnly);
   const bool larger = cells.x > enough || cells.y > enough;
   return (larger ? 1 - margin : 1) * 2 / std::sqrt(modes.eigenvalues()[freedoms - 1]);
+}
+
+}  // namespace
+
+double critical_time_step(const Plate& plate, const Cells& cells) {
+  const CellSize h{plate.width / cells.x, plate.height / cells.y};
+  material::PlaneElastic solid = elastic(plate);
+  double density_times_viscosity = 0;
+  if (plate.viscosity) {
+    const double speed = solid.pressure_wave_speed();
+    density_times_viscosity = solid.density * speed * std::sqrt(h.x * h.y) * plate.viscosity->strength(speed, 0);
+  }
+  if (const auto* failure = std::get_if<material::FailureWave>(&plate.material)) {
+    solid.youngs_modulus *= failure->stiffening();
+  }
+  return material::viscous_time_step(solid, density_times_viscosity,
+                                     [&](const material::PlaneElastic& s) { return limit(s, h, cells); });
 }
 
 }  // namespace diptych::fem

@@ -12,9 +12,11 @@
 #include <vector>
 
 #include "material/compression.hpp"
+#include "material/failure_wave.hpp"
 #include "material/plane.hpp"
 #include "material/record.hpp"
 #include "material/tensile_damage.hpp"
+#include "material/viscosity.hpp"
 
 namespace diptych {
 
@@ -38,7 +40,30 @@ struct Edge {
   std::function<Vector(double x, double y, double t)> velocity;  ///< of a driven side [m/s]
 };
 
-using PlateMaterial = std::variant<material::PlaneElastic, material::TensileDamage>;
+using PlateMaterial = std::variant<material::PlaneElastic, material::TensileDamage, material::FailureWave>;
+
+/// A flyer strikes the rest of the plate. Left of x = face everything moves to the right at the start, and what is
+/// right of it rests.
+struct Impact {
+  double face = 0;      ///< where the two meet [m], on a column of the cells' nodes, > 0 and < width
+  double velocity = 0;  ///< of the flyer [m/s], > 0
+  /// Between flyer and target at the start [m], ≥ 0. Time counts from when they meet. FEM has no contact: there they
+  /// are bonded from the start, as in the paper. Places are those that the two have when they meet.
+  double gap = 0;
+};
+
+/// A place where stress is recorded at every step.
+struct Gauge {
+  double x = 0, y = 0;  ///< [m]
+};
+
+/// What a gauge saw: stress and dilatancy, the means over cells, on the line between the middles of the two cells
+/// beside it in its row. The stress is the material's, without the artificial viscosity.
+struct GaugeRecord {
+  std::vector<double> time;       ///< of the stress [s]
+  std::vector<double> xx, yy;     ///< [Pa]
+  std::vector<double> dilatancy;  ///< V_d; empty without a failure wave
+};
 
 /// 0 ≤ x ≤ width, 0 ≤ y ≤ height, of unit thickness, small strain.
 struct Plate {
@@ -49,6 +74,9 @@ struct Plate {
   std::function<Vector(double x, double y, double t)> body_force;  ///< specific, b of eq. 2 [m/s²]
   std::function<Vector(double x, double y)> initial_velocity;      ///< [m/s]
   std::function<Vector(double x, double y)> initial_displacement;  ///< [m], strains follow from it
+  std::optional<Impact> impact;                                    ///< beside it no initial state
+  std::optional<material::Viscosity> viscosity;                    ///< artificial; form york
+  std::vector<Gauge> gauges;
   bool convected = false;  ///< particles move and cross cells; false: infinitesimal displacements
   double pic = 0;          ///< part of PIC in MPM's velocity update, 0 (FLIP) to 1
 
@@ -64,6 +92,7 @@ struct Cells {
 
 inline const material::PlaneElastic& elastic(const Plate& plate) {
   if (const auto* damage = std::get_if<material::TensileDamage>(&plate.material)) return damage->elastic;
+  if (const auto* failure = std::get_if<material::FailureWave>(&plate.material)) return failure->elastic;
   return std::get<material::PlaneElastic>(plate.material);
 }
 
@@ -84,6 +113,7 @@ struct PlateSnapshot {
   std::vector<double> crack_density;      ///< C_d of each cell; empty without damage
   std::vector<material::Tensor> strain;   ///< with damage: of each cell, the mean over its triangles or particles
   std::vector<double> concentration;      ///< C of each cell node, row by row; empty without diffusion [1/m³]
+  std::vector<double> dilatancy;          ///< V_d of each cell; empty without a failure wave; of nodes: `concentration`
 };
 
 /// True if every value is finite.
@@ -94,11 +124,16 @@ inline bool finite(const PlateSnapshot& s) {
   for (const PointField* f : {&s.displacement, &s.velocity, &s.stress}) {
     if (!std::all_of(f->component.begin(), f->component.end(), all_finite)) return false;
   }
-  return all_finite(s.volumetric_strain) && all_finite(s.crack_density) && all_finite(s.concentration);
+  return all_finite(s.volumetric_strain) && all_finite(s.crack_density) && all_finite(s.concentration) &&
+         all_finite(s.dilatancy);
 }
 
 struct PlateRecord : BasicRecord<PlateSnapshot> {
-  double fed = 0;              ///< with diffusion: ∫C dA at the start and what the source has given since
+  double fed = 0;  ///< with diffusion: ∫C dA (∫V_d dA) at the start and what the source (the face) has given since
+  long diffusion_updates = 0;       ///< nodes that the diffusion has brought up to date, over the run
+  std::vector<GaugeRecord> gauges;  ///< one a gauge of the plate, a value after each step
+  double approach = 0;              ///< MPM with a gap: time of flight until the two met [s]
+  double left_over = 0;        ///< MPM with a gap: how far they were apart (< 0: too near) when they were joined [m]
   std::vector<double> platen;  ///< displacement of the platen along its outward normal after each step [m]; or empty
 };
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
+#include <tuple>
 
 #include "material/stepping.hpp"
 #include "mpm/plate_grid.hpp"
@@ -24,13 +26,21 @@ struct NodalForce {
   Vector force;
 };
 
+/// Column of nodes at which flyer and target meet.
+std::size_t face_of(const Plate& plate, double hx) {
+  return static_cast<std::size_t>(std::lround(plate.impact->face / hx));
+}
+
 template <class Particles, class PlateLaw>
 class Body {
  public:
-  static constexpr bool convected = Particles::moving, damaging = PlateLaw::damaging;
+  static constexpr bool convected = Particles::moving;
+  static constexpr bool damaging = PlateLaw::damaging, failing = PlateLaw::failing;
+  static constexpr bool staggered = damaging || failing;  // something happens between strain and force
 
   Body(const Plate& plate, const Cells& cells, const std::vector<double>& positions, Scheme scheme,
-       const std::optional<diffusion::Evolution>& evolution, const Stepping& stepping)
+       const std::optional<diffusion::Evolution>& evolution, const Stepping& stepping,
+       const std::optional<diffusion::Spread>& spread)
       : plate_(plate),
         scheme_(scheme),
         dt_(stepping.time_step),
@@ -51,12 +61,24 @@ class Body {
       volumetric_strain_.resize(nx_ * ny_);
       has_diffusion_ = evolution->diffusion.has_value();
     }
+    if constexpr (failing) {
+      dilatancy_.emplace(*spread, diffusion::Grid{cells.x, cells.y, grid_.hx, grid_.hy});
+      ceiling_.resize(nx_ * ny_);
+      has_diffusion_ = true;
+      law_.dilate(dilatancy_->of_cells());
+    }
+    if (plate.viscosity) damping_.emplace(*plate.viscosity, plate, grid_, particles_.storage());
+    place_gauges(stepping.steps);
     if (stepping.books != Books::off) row_sums_.resize(grid_.ny);
     if (supports_.has_platen()) platen_.reserve(static_cast<std::size_t>(stepping.steps));
     nodal_forces_.reserve(8 * (grid_.nx + grid_.ny));
     if (plate.body_force) body_.resize(grid_.storage());
     particles_.map_mass(bands_);
     start();
+    if (grid_.cut != Grid::uncut) {
+      fly(stepping);
+      supports_.join();
+    }
     map_momentum();
     if (scheme_ == Scheme::usf) bring_usf_to_its_half_step();
     if (scheme_ != Scheme::usf) internal_force();
@@ -67,6 +89,7 @@ class Body {
     if (scheme_ == Scheme::usl) step_usl(n, ledger);
     if (scheme_ == Scheme::musl) step_musl(n, ledger);
     if (supports_.has_platen()) platen_.push_back(platen_now_);
+    if (!gauges_.empty()) read_gauges(n + 1);
   }
 
   // The momentum of the particles stands on the grid when a step begins, mapped when the one before it ended. Where
@@ -122,7 +145,7 @@ class Body {
     const bool usf = scheme_ == Scheme::usf;
     PlateSnapshot s;
     s.step = n;
-    s.time = usf ? time - half : time;
+    s.time = time_of_stress(n);
     const std::size_t count = particles_.count(), per_cell = particles_.per_cell();
     PointField points;
     points.time = s.time;
@@ -165,6 +188,10 @@ class Body {
       s.crack_density.assign(evolution_->crack_density().begin(), evolution_->crack_density().end());
       s.concentration.assign(evolution_->concentration().begin(), evolution_->concentration().end());
     }
+    if (dilatancy_) {
+      s.dilatancy.assign(dilatancy_->of_cells().begin(), dilatancy_->of_cells().end());
+      s.concentration.assign(dilatancy_->of_nodes().begin(), dilatancy_->of_nodes().end());
+    }
     return s;
   }
 
@@ -189,13 +216,15 @@ class Body {
   static std::vector<Touch> touches() { return {}; }
   /// Told by what this run has built up, not by what the scene asks for.
   std::vector<std::string> features() const {
-    std::vector<std::string> active{damaging ? "damage" : "elastic"};
+    std::vector<std::string> active{damaging ? "damage" : failing ? "failure-wave" : "elastic"};
     if (!body_.x.empty()) active.push_back("body-force");
     if (PlateLaw::plastic) active.push_back("compression-plasticity");
     if (particles_.has_moved()) active.push_back("convection");
     if (has_diffusion_) active.push_back("diffusion");
+    if (plate_.impact) active.push_back("impact");
     if (plate_.pic > 0) active.push_back("pic");
     if (!platen_.empty()) active.push_back("platen");
+    if (damping_ && damping_->acted()) active.push_back("viscosity");
     std::sort(active.begin(), active.end());
     return active;
   }
@@ -203,10 +232,17 @@ class Body {
     return {0, static_cast<long>(particles_.count()) * steps, static_cast<long>(grid_.nodes()) * steps,
             particles_.bytes() + law_.bytes() + grid_.bytes() + bands_.bytes() + supports_.bytes() + body_.bytes() +
                 nodal_forces_.capacity() * sizeof(NodalForce) + volumetric_strain_.capacity() * sizeof(double) +
-                (evolution_ ? evolution_->bytes() : 0)};
+                ceiling_.capacity() * sizeof(double) + (evolution_ ? evolution_->bytes() : 0) +
+                (dilatancy_ ? dilatancy_->bytes() : 0) + (damping_ ? damping_->bytes() : 0)};
   }
   std::vector<double> take_platen() { return std::move(platen_); }
-  double fed() const { return evolution_ ? evolution_->fed() : 0; }
+  std::vector<GaugeRecord> take_gauges() { return std::move(gauges_); }
+  long diffusion_updates() const {
+    return evolution_ ? evolution_->node_updates() : dilatancy_ ? dilatancy_->node_updates() : 0;
+  }
+  double fed() const { return evolution_ ? evolution_->fed() : dilatancy_ ? dilatancy_->fed() : 0; }
+  double approach() const { return static_cast<double>(flight_steps_) * dt_; }
+  double left_over() const { return left_over_; }
 
  private:
   // --- how the plate starts ------------------------------------------------------------------------------------------
@@ -219,6 +255,10 @@ class Body {
     grid.hy = plate.height / cells.y;
     grid.nx = nx;
     grid.ny = ny;
+    if (plate.impact && plate.impact->gap > 0) {
+      grid.cut = face_of(plate, grid.hx);
+      ++grid.nx;
+    }
     if constexpr (convected) {
       const auto room = [&](Side side, std::size_t count) {
         return plate.edge(side).support == Edge::Support::free ? count : 0;
@@ -252,6 +292,13 @@ class Body {
       state.velocity.x[p] = v[0];
       state.velocity.y[p] = v[1];
     });
+    if (plate_.impact) {
+      const std::size_t face = face_of(plate_, grid_.hx);
+      for_cells([&](std::size_t i, std::size_t j) {
+        for (std::size_t k = 0; k < particles_.per_cell() && i < face; ++k)
+          state.velocity.x[particles_.index(i, j, k)] = plate_.impact->velocity;
+      });
+    }
     if (!plate_.initial_displacement) return;
     set(plate_.initial_displacement, [&](std::size_t p, const Vector& u) {
       state.displacement.x[p] = u[0];
@@ -284,14 +331,37 @@ class Body {
     }
   }
 
+  /// Whole steps until the flyer is as near to the target as it gets: at most half a step's travel is left. Loads count
+  /// from the contact, nothing strains in flight, and places are those at its end.
+  void fly(const Stepping& stepping) {
+    State& state = particles_.state();
+    const auto mean = [&](const std::vector<double>& component, std::size_t column) {
+      double sum = 0;
+      for (std::size_t j = 0; j < ny_; ++j) {
+        for (std::size_t k = 0; k < particles_.per_cell(); ++k) sum += component[particles_.index(column, j, k)];
+      }
+      return sum / static_cast<double>(ny_ * particles_.per_cell());
+    };
+    const auto opened = [&](const std::vector<double>& component) {
+      return mean(component, grid_.cut) - mean(component, grid_.cut - 1);
+    };
+    const Kick kick{0, dt_, dt_};
+    left_over_ = plate_.impact->gap;
+    map_momentum();
+    while (!(stepping.cancelled && *stepping.cancelled)) {
+      if (!(std::abs(left_over_ + dt_ * opened(state.velocity.x)) < std::abs(left_over_))) break;
+      internal_force();
+      integrate_momentum(kick);
+      kick_and_move(kick.length, dt_);
+      left_over_ = plate_.impact->gap + opened(state.displacement.x);
+      ++flight_steps_;
+    }
+    for (auto* u : {&state.displacement.x, &state.displacement.y}) std::fill(u->begin(), u->end(), 0.0);
+  }
+
   /// USF keeps the velocity at whole steps and strain and displacement half-way between them.
   void bring_usf_to_its_half_step() {
-    if constexpr (damaging) {
-      particles_.template strain_and_force<Do::strain>(bands_, grid_.velocity, dt_ / 2, law_);
-      crack(dt_ / 2);
-    } else {
-      particles_.template strain_and_force<Do::both>(bands_, grid_.velocity, dt_ / 2, law_);
-    }
+    strain(grid_.velocity, dt_ / 2);
     for (auto* a : {&grid_.acceleration.x, &grid_.acceleration.y}) std::fill(a->begin(), a->end(), 0.0);
     kick_and_move(0, dt_ / 2);
     convect();
@@ -327,7 +397,30 @@ class Body {
     if constexpr (convected)
       particles_.map_force(bands_, law_);
     else
-      particles_.template strain_and_force<Do::force>(bands_, grid_.velocity, 0, law_);
+      strain_and_force<Do::force>(grid_.velocity, 0);
+  }
+
+  template <Do what>
+  void strain_and_force(const VectorField& velocity, double dt) {
+    Inviscid none;
+    if constexpr (!convected && what != Do::both) {
+      if (damping_) return particles_.template strain_and_force<what>(bands_, velocity, dt, law_, *damping_);
+    }
+    particles_.template strain_and_force<what>(bands_, velocity, dt, law_, none);
+  }
+
+  /// Strains, what follows from them in the cells, and the internal forces of both.
+  void strain(const VectorField& velocity, double dt) {
+    if (!staggered && !damping_) {
+      strain_and_force<Do::both>(velocity, dt);
+      return;
+    }
+    if constexpr (!convected) {
+      strain_and_force<Do::strain>(velocity, dt);
+      if constexpr (damaging) crack(dt);
+      if constexpr (failing) dilate(dt);
+      internal_force();
+    }
   }
 
   /// Tractions on the nodes of the sides, and the body force. A node takes its part of the sides of the cells beside it
@@ -342,8 +435,10 @@ class Body {
       const double normal = (outward(side) ? 1 : -1) * mean(edge_of_plate.normal_traction);
       const double shear = mean(edge_of_plate.shear_traction), h = across(side) ? grid_.hy : grid_.hx;
       supports_.for_nodes(side, [&](std::size_t i, std::size_t j) {
-        const std::size_t k = across(side) ? j : i, last = across(side) ? grid_.ny : grid_.nx;
-        const double length = k == 0 ? h * places_.near() : k == last ? h * places_.far() : h;
+        const std::size_t k = across(side) ? j : i, last = grid_.ny;
+        const bool begins = across(side) ? k == 0 : grid_.ends_left(k);
+        const bool ends = across(side) ? k == last : grid_.ends_right(k);
+        const double length = begins ? h * places_.near() : ends ? h * places_.far() : h;
         nodal_forces_.push_back(
             {grid_.row(j) + i, grid_.mass_of(i, j),
              across(side) ? Vector{length * normal, length * shear} : Vector{length * shear, length * normal}});
@@ -411,19 +506,19 @@ class Body {
       const double half_work = work_of_stress(velocity) / 2;
       stored_and_half = stored_energy() + half_work;
       if (convected && scheme_ == Scheme::usf) ledger->take_by_scheme(-(half_work_of_kick_ + half_work));
+      if (damping_) ledger->take_by_viscosity(work_of_viscosity(velocity) / 2);
     }
-    if constexpr (damaging) {
-      particles_.template strain_and_force<Do::strain>(bands_, velocity, dt_, law_);
-      crack(dt_);
-      internal_force();
-    } else {
-      particles_.template strain_and_force<Do::both>(bands_, velocity, dt_, law_);
-    }
+    strain(velocity, dt_);
     if (ledger) {
       half_work_ = work_of_stress(velocity) / 2;
       // By the trapezium of the leapfrog; nothing where the law is linear.
-      const double dissipated = damaging || PlateLaw::plastic ? stored_and_half + half_work_ - stored_energy() : 0;
+      const double dissipated = staggered || PlateLaw::plastic ? stored_and_half + half_work_ - stored_energy() : 0;
       ledger->close_line(kinetic_energy(), stored_and_half, dissipated, momentum());
+      if (damping_) {
+        const double viscous = work_of_viscosity(velocity) / 2;
+        ledger->take_by_viscosity(viscous);
+        half_work_ += viscous;
+      }
     }
   }
 
@@ -439,12 +534,87 @@ class Body {
     law_.crack(evolution_->crack_density());
   }
 
+  /// Each cell's mean strain shows the diffusion its ceiling, and its dilatancy at the strains' own time comes back.
+  void dilate(double dt) {
+    bands_.for_each([&](Band& band) {
+      for (std::size_t j = band.first; j < band.last; ++j) {
+        for (std::size_t i = 0; i < nx_; ++i) ceiling_[j * nx_ + i] = law_.ceiling(particles_.mean_strain(i, j));
+      }
+    });
+    dilatancy_->advance(ceiling_, dt);
+    law_.dilate(dilatancy_->of_cells());
+  }
+
   void convect() {
     if constexpr (convected) {
       particles_.convect(bands_);
       map_momentum();
       if (scheme_ != Scheme::usf) internal_force();
     }
+  }
+
+  // --- gauges --------------------------------------------------------------------------------------------------------
+
+  /// On the line between the middles of two cells, and where it stands between two rows half-way between two lines.
+  struct Spot {
+    std::array<std::size_t, 2> column, row;
+    double right;  ///< share of the right column
+  };
+
+  void place_gauges(long steps) {
+    // The cells whose middles are beside a place counted in cells; places on middles and faces but for round-off are on
+    // them, so that mirrored gauges read the same bits.
+    const auto beside = [](double place, std::size_t cells) {
+      double at = place - 0.5;
+      if (const double near = std::round(2 * at) / 2; std::abs(at - near) < 1e-9) at = near;
+      at = std::clamp(at, 0.0, static_cast<double>(cells - 1));
+      const auto low = static_cast<std::size_t>(at);
+      return std::tuple{low, std::min(low + 1, cells - 1), at - static_cast<double>(low)};
+    };
+    for (const Gauge& gauge : plate_.gauges) {
+      const auto [left, right, share] = beside(gauge.x / grid_.hx, nx_);
+      const auto [below, above, part] = beside(gauge.y / grid_.hy, ny_);
+      spots_.push_back({{left, right}, {part > 0.5 ? above : below, part < 0.5 ? below : above}, share});
+      GaugeRecord& record = gauges_.emplace_back();
+      for (auto* values : {&record.time, &record.xx, &record.yy}) values->reserve(static_cast<std::size_t>(steps));
+      if (failing) record.dilatancy.reserve(static_cast<std::size_t>(steps));
+    }
+  }
+
+  void read_gauges(long n) {
+    for (std::size_t g = 0; g < gauges_.size(); ++g) {
+      const Spot& spot = spots_[g];
+      const auto read = [&](auto&& of_cell) {
+        const auto row = [&](std::size_t j) {
+          return (1 - spot.right) * of_cell(spot.column[0], j) + spot.right * of_cell(spot.column[1], j);
+        };
+        return (row(spot.row[0]) + row(spot.row[1])) / 2;
+      };
+      GaugeRecord& record = gauges_[g];
+      record.time.push_back(time_of_stress(n));
+      record.xx.push_back(read([&](std::size_t i, std::size_t j) { return mean_stress(i, j, &material::Tensor::xx); }));
+      record.yy.push_back(read([&](std::size_t i, std::size_t j) { return mean_stress(i, j, &material::Tensor::yy); }));
+      if constexpr (failing)
+        record.dilatancy.push_back(
+            read([&](std::size_t i, std::size_t j) { return dilatancy_->of_cells()[j * nx_ + i]; }));
+    }
+  }
+
+  /// Of a cell's particles, from the outside in.
+  double mean_stress(std::size_t i, std::size_t j, double material::Tensor::*component) const {
+    const std::size_t along = places_.count();
+    const double sum = pair_sum<0>(along, [&](std::size_t b) {
+      return pair_sum<0>(along, [&](std::size_t a) {
+        const std::size_t p = particles_.index(i, j, b * along + a);
+        return law_.stress(particles_.state().strain[p], j * nx_ + i, p).*component;
+      });
+    });
+    return sum / static_cast<double>(along * along);
+  }
+
+  double time_of_stress(long n) const {
+    const double time = static_cast<double>(n) * dt_;
+    return scheme_ == Scheme::usf ? time - dt_ / 2 : time;
   }
 
   // --- books ---------------------------------------------------------------------------------------------------------
@@ -545,6 +715,13 @@ class Body {
              return law_.stress(state.strain[at.particle], at.cell, at.particle).contract(at.gradient(velocity, grid_));
            });
   }
+  /// Of the artificial viscosity at hand, likewise.
+  double work_of_viscosity(const VectorField& velocity) {
+    return particles_.state().volume * dt_ * sum([&](const Place& at) {
+             const material::Tensor rate = at.gradient(velocity, grid_);
+             return damping_->stress(at.particle) * (rate.xx + rate.yy);
+           });
+  }
   /// Σ m a · v
   double power(const VectorField& velocity) {
     double total = 0;
@@ -591,23 +768,58 @@ class Body {
   Bands bands_;
   Supports supports_;
   std::optional<diffusion::DamageEvolution> evolution_;
+  std::optional<diffusion::Dilatancy> dilatancy_;
+  std::optional<Damping> damping_;
   bool has_diffusion_ = false;
   std::vector<double> volumetric_strain_;  // of each cell, only with damage
+  std::vector<double> ceiling_;            // V_d,max of each cell, only with a failure wave
   VectorField body_;                       // forces on nodes, only with a body force
   std::vector<NodalForce> nodal_forces_;   // of the current step
   std::vector<double> platen_;
   double platen_now_ = 0;
+  std::vector<Spot> spots_;
+  std::vector<GaugeRecord> gauges_;
+  double left_over_ = 0;
+  long flight_steps_ = 0;
   // For the books:
   std::vector<double> row_sums_;
   double half_work_ = 0, half_work_of_kick_ = 0, reaction_ = 0, held_ = 0, driven_excess_ = 0;
 };
 
+constexpr double longest_flight = 1e7;  // time steps
+
 void refuse(bool wrong, const char* message) {
   if (wrong) throw std::invalid_argument(std::string("mpm: ") + message);
 }
 
+void check_impact(const Plate& plate, const Cells& cells, double time_step) {
+  using Support = Edge::Support;
+  const Impact& impact = *plate.impact;
+  const auto is = [&](Side side, Support s) { return plate.edge(side).support == s; };
+  const double column = impact.face / (plate.width / cells.x), nearest = std::round(column);
+  refuse(plate.convected, "flyer and target keep the grid that they have when they meet (impact with convected)");
+  refuse(plate.initial_velocity || plate.initial_displacement,
+         "an impact gives the initial velocity (impact beside an initial velocity or displacement)");
+  refuse(!(nearest >= 1 && nearest <= cells.x - 1), "the face of an impact lies inside the plate");
+  refuse(!(std::abs(column - nearest) <= 1e-9), "the face of an impact lies on a column of the cells' nodes");
+  refuse(!(impact.velocity > 0 && std::isfinite(impact.velocity)), "the flyer's velocity must be > 0");
+  refuse(!(impact.gap >= 0 && std::isfinite(impact.gap)), "the gap in front of the flyer must be >= 0");
+  for (const Side side : {Side::bottom, Side::top})
+    refuse(is(side, Support::driven) || is(side, Support::platen),
+           "a driven side or a platen below or above would tie the flyer to the target (with impact)");
+  if (impact.gap == 0) return;
+  refuse(!is(Side::left, Support::free) || is(Side::bottom, Support::fixed) || is(Side::top, Support::fixed),
+         "in front of a gap the flyer flies by itself: its left side is free, and it may slide along rollers only");
+  const double steps = impact.gap / (impact.velocity * time_step);
+  if (!(steps <= longest_flight))
+    throw std::invalid_argument("mpm: the gap takes the flyer " + std::to_string(steps) +
+                                " time steps, and a flight may have at most " + std::to_string(longest_flight));
+}
+
 void check(const Plate& plate, const Cells& cells, const std::vector<double>& positions,
-           const std::optional<diffusion::Evolution>& evolution) {
+           const std::optional<diffusion::Evolution>& evolution, const std::optional<diffusion::Spread>& spread,
+           double time_step) {
+  const auto* failure = std::get_if<material::FailureWave>(&plate.material);
   const bool damaging = std::holds_alternative<material::TensileDamage>(plate.material);
   refuse(cells.x < 1 || cells.y < 1 || positions.empty(), "a plate needs at least one cell and one particle");
   refuse(positions.size() > Arrangement::most, "at most 8 × 8 particles a cell");
@@ -615,6 +827,23 @@ void check(const Plate& plate, const Cells& cells, const std::vector<double>& po
          "particles stand at ascending natural coordinates in [0, 1]");
   refuse(damaging && !evolution, "tensile damage needs an evolution of its crack density");
   refuse(!damaging && evolution, "an evolution of the crack density needs a material with tensile damage");
+  refuse(failure && !spread, "a failure wave needs the spread of its dilatancy");
+  refuse(!failure && spread, "the spread of a dilatancy needs a material with a failure wave");
+  refuse(failure && failure->elastic.plane == material::Plane::stress, "a failure wave is for plane strain only");
+  refuse(failure && plate.compression, "a failure wave has no plasticity in compression beside it");
+  refuse(failure && !(failure->threshold >= 0), "the threshold of a failure wave must be >= 0");
+  refuse(failure && !(failure->most_converted >= 0 && failure->most_converted <= 1),
+         "the part of the shear energy that a failure wave converts lies between 0 and 1");
+  refuse(plate.convected && failure,
+         "dilatancy stays in its cells, so particles that cross cells cannot have it (convected with a failure wave)");
+  refuse(plate.viscosity && plate.viscosity->form != material::Viscosity::Form::york,
+         "in a plate the artificial viscosity is that of eq. 21");
+  refuse(plate.convected && plate.viscosity,
+         "the artificial viscosity is for particles that keep their places (convected with viscosity)");
+  for (const Gauge& gauge : plate.gauges)
+    refuse(!(gauge.x >= 0 && gauge.x <= plate.width && gauge.y >= 0 && gauge.y <= plate.height),
+           "a gauge stands in the plate");
+  if (plate.impact) check_impact(plate, cells, time_step);
   refuse(plate.compression && elastic(plate).plane == material::Plane::stress,
          "plasticity in compression is for plane strain only");
   refuse(!(plate.pic >= 0 && plate.pic <= 1), "the part of PIC lies between 0 and 1");
@@ -646,24 +875,30 @@ void check(const Plate& plate, const Cells& cells, const std::vector<double>& po
 }  // namespace
 
 PlateRecord run(const Plate& plate, const Cells& cells, const std::vector<double>& positions, Scheme scheme,
-                const std::optional<diffusion::Evolution>& evolution, const Stepping& stepping) {
-  check(plate, cells, positions, evolution);
-  const auto go = [&]<class Particles, bool damaging, bool plastic>() {
-    Body<Particles, Law<damaging, plastic>> body(plate, cells, positions, scheme, evolution, stepping);
+                const std::optional<diffusion::Evolution>& evolution, const Stepping& stepping,
+                const std::optional<diffusion::Spread>& spread) {
+  check(plate, cells, positions, evolution, spread, stepping.time_step);
+  const auto go = [&]<class Particles, Damage damage, bool plastic>() {
+    Body<Particles, Law<damage, plastic>> body(plate, cells, positions, scheme, evolution, stepping, spread);
     PlateRecord record = take_steps<PlateRecord>(body, stepping);
     record.platen = body.take_platen();
+    record.gauges = body.take_gauges();
     record.fed = body.fed();
+    record.diffusion_updates = body.diffusion_updates();
+    record.approach = body.approach();
+    record.left_over = body.left_over();
     return record;
   };
+  const bool plastic = plate.compression.has_value();
   if (plate.convected) {
-    return plate.compression ? go.template operator()<Moving, false, true>()
-                             : go.template operator()<Moving, false, false>();
+    return plastic ? go.template operator()<Moving, Damage::none, true>()
+                   : go.template operator()<Moving, Damage::none, false>();
   }
-  const bool damaging = evolution.has_value(), plastic = plate.compression.has_value();
-  if (damaging && plastic) return go.template operator()<Standing, true, true>();
-  if (damaging) return go.template operator()<Standing, true, false>();
-  if (plastic) return go.template operator()<Standing, false, true>();
-  return go.template operator()<Standing, false, false>();
+  if (spread) return go.template operator()<Standing, Damage::failure_wave, false>();
+  if (evolution && plastic) return go.template operator()<Standing, Damage::cracks, true>();
+  if (evolution) return go.template operator()<Standing, Damage::cracks, false>();
+  if (plastic) return go.template operator()<Standing, Damage::none, true>();
+  return go.template operator()<Standing, Damage::none, false>();
 }
 
 }  // namespace diptych::mpm

@@ -55,25 +55,34 @@ inline std::size_t off_pages(std::size_t length, std::size_t rows) {
 
 /// Nodes row by row from the bottom, each row from the left.
 struct Grid {
+  static constexpr std::size_t uncut = static_cast<std::size_t>(-1);
   std::size_t nx = 1, ny = 1;   ///< cells across and up
   double hx = 1, hy = 1;        ///< of a cell [m]
   double left = 0, bottom = 0;  ///< where the first node stands [m]
   std::size_t stride = 2;       ///< from a node to the one above it, ≥ nx + 1
   bool alike = true;            ///< all rows between the bottom and the top one have the same masses, stored once
-  std::vector<double> mass;     ///< [kg]
-  VectorField velocity;         ///< mapped from the particles [m/s]
-  VectorField acceleration;     ///< [m/s²]
-  VectorField kicked;           ///< the grid's own new velocity, kept for USL only [m/s]
+  /// Column of nodes at which two bodies meet that were apart: this one is the left one's and the next one the right
+  /// one's, both at the same place, and the column of cells between them holds nothing.
+  std::size_t cut = uncut;
+  std::vector<double> mass;  ///< [kg]
+  VectorField velocity;      ///< mapped from the particles [m/s]
+  VectorField acceleration;  ///< [m/s²]
+  VectorField kicked;        ///< the grid's own new velocity, kept for USL only [m/s]
 
   std::size_t row_length() const { return nx + 1; }
   std::size_t next_row() const { return stride; }
   std::size_t row(std::size_t j) const { return j * stride; }
   std::size_t nodes() const { return (nx + 1) * (ny + 1); }
+  /// Columns of cells that there are without the one at the cut, and where the i-th of them is in the grid.
+  std::size_t columns() const { return cut == uncut ? nx : nx - 1; }
+  std::size_t column(std::size_t i) const { return i < cut ? i : i + 1; }
+  bool ends_right(std::size_t i) const { return i == nx || i == cut; }  ///< node column without a cell to its right
+  bool ends_left(std::size_t i) const { return i == 0 || i == cut + 1; }
   std::size_t storage() const { return stride * (ny + 1); }
   std::size_t mass_rows() const { return alike ? 3 : ny + 1; }
   std::size_t mass_row(std::size_t j) const { return row(!alike ? j : j == 0 ? 0 : j == ny ? 2 : 1); }
   double mass_of(std::size_t i, std::size_t j) const { return mass[mass_row(j) + i]; }
-  double x(std::size_t i) const { return left + static_cast<double>(i) * hx; }
+  double x(std::size_t i) const { return left + static_cast<double>(i <= cut ? i : i - 1) * hx; }
   double y(std::size_t j) const { return bottom + static_cast<double>(j) * hy; }
   std::size_t bytes() const {
     return mass.capacity() * sizeof(double) + velocity.bytes() + acceleration.bytes() + kicked.bytes();
@@ -195,7 +204,8 @@ class Supports {
         for_nodes(side, [&](std::size_t i, std::size_t j) {
           const auto here = [&](const Driven& d) { return d.i == i && d.j == j; };
           if (std::any_of(driven_.begin(), driven_.end(), here)) return;  // a corner goes with the first of its sides
-          const Vector v = plate.initial_velocity ? plate.initial_velocity(grid.x(i), grid.y(j)) : Vector{0, 0};
+          Vector v = plate.initial_velocity ? plate.initial_velocity(grid.x(i), grid.y(j)) : Vector{0, 0};
+          if (plate.impact && grid.x(i) < plate.impact->face) v = {plate.impact->velocity, 0};
           driven_.push_back({i, j, side, v, v});
         });
       }
@@ -210,12 +220,15 @@ class Supports {
     return true;
   }
   bool has_platen() const { return !platens_.empty(); }
+  /// From now on the nodes on both sides of the grid's cut move as one.
+  void join() { joined_ = true; }
   const std::vector<Driven>& driven() const { return driven_; }
   std::size_t bytes() const { return driven_.capacity() * sizeof(Driven); }
 
   /// Holds the velocities just mapped. Returns Σ m (held − mapped) along (1, 1) [kg m/s].
   double hold_velocity() {
     for (Driven& d : driven_) d.unheld = {grid_.velocity.x[at(d.i, d.j)], grid_.velocity.y[at(d.i, d.j)]};
+    if (joined_) unite(grid_.velocity);
     level_platens(grid_.velocity);
     return hold(grid_.velocity, [](const Driven& d) { return d.after; });
   }
@@ -227,6 +240,7 @@ class Supports {
       d.after = plate_.edge(d.side).velocity(grid_.x(d.i), grid_.y(d.j), to);
       d.reaction = {grid_.acceleration.x[at(d.i, d.j)], grid_.acceleration.y[at(d.i, d.j)]};
     }
+    if (joined_) unite(grid_.acceleration);
     level_platens(grid_.acceleration);
     const double total = hold(grid_.acceleration, [&](const Driven& d) {
       return Vector{(d.after[0] - d.before[0]) / kick, (d.after[1] - d.before[1]) / kick};
@@ -303,6 +317,18 @@ class Supports {
     }
   }
 
+  /// The single-valued field of MPM's own contact: two nodes at one place share their momentum or force.
+  void unite(VectorField& field) {
+    for (std::size_t j = 0; j <= grid_.ny; ++j) {
+      const std::size_t a = at(grid_.cut, j), b = a + 1;
+      const double of_a = grid_.mass_of(grid_.cut, j), of_b = grid_.mass_of(grid_.cut + 1, j);
+      for (auto* values : {&field.x, &field.y}) {
+        double *left = values->data() + a, *right = values->data() + b;
+        *left = *right = (of_a * *left + of_b * *right) / (of_a + of_b);
+      }
+    }
+  }
+
   template <class Given>
   double hold(VectorField& field, Given&& given) {
     double total = 0;
@@ -332,6 +358,7 @@ class Supports {
   Grid& grid_;
   std::vector<Platen> platens_;
   std::vector<Driven> driven_;
+  bool joined_ = false;
 };
 
 }  // namespace diptych::mpm

@@ -66,11 +66,12 @@ struct NodeRows {
 /// Shares of a row of cells for their corners, see CornerShares.
 struct ShareRows {
   double *bottom_left, *bottom_right, *top_left, *top_right;
-  explicit ShareRows(CornerShares& s)
-      : bottom_left(s.bottom_left.data()),
-        bottom_right(s.bottom_right.data() + 1),
-        top_left(s.top_left.data()),
-        top_right(s.top_right.data() + 1) {}
+  /// first: of the row's cells that are worked on.
+  explicit ShareRows(CornerShares& s, std::size_t first)
+      : bottom_left(s.bottom_left.data() + first),
+        bottom_right(s.bottom_right.data() + first + 1),
+        top_left(s.top_left.data() + first),
+        top_right(s.top_right.data() + first + 1) {}
 };
 
 /// One component of v += τ Σ N a (eq. 11) and u += Δt Σ N v (eqs. 9, 10) of the particles of a row of cells, and their
@@ -125,11 +126,12 @@ struct TensorRows {
 /// What the new strains are good for: with damage the crack density comes between the two.
 enum class Do { strain, force, both };
 
-/// Strain increments Δt ∇v of the particles of a row of cells, and the internal forces of their stress (eq. 19).
-template <std::size_t n, Do what, class LawRow>
+/// Strain increments Δt ∇v of the particles of a row of cells, and the internal forces of their stress (eq. 19) with
+/// the artificial viscosity.
+template <std::size_t n, Do what, class LawRow, class ViscousRow>
 DIPTYCH_WIDE void strain_row(const Arrangement& places, std::size_t cells, std::size_t stride, double dt, double hx,
                              double hy, double volume, NodeRows velocity_x, NodeRows velocity_y, TensorRows strain,
-                             LawRow law, ShareRows out_x, ShareRows out_y) {
+                             LawRow law, [[maybe_unused]] ViscousRow viscous, ShareRows out_x, ShareRows out_y) {
   constexpr std::size_t most = n > 0 ? n : Arrangement::most;
   const std::size_t count = n > 0 ? n : places.count;
   const std::array<double, Arrangement::most> near = places.near, far = places.far;
@@ -157,8 +159,10 @@ DIPTYCH_WIDE void strain_row(const Arrangement& places, std::size_t cells, std::
         const double xx = near[b] * xx_low + far[b] * xx_high, yx = near[b] * yx_low + far[b] * yx_high;
         for_places<n>(count, [&](std::size_t a) DIPTYCH_INLINE {
           const std::size_t p = (b * count + a) * stride + i;
+          const double yy = near[a] * yy_left + far[a] * yy_right;
           strain.xx[p] += xx;
-          strain.yy[p] += near[a] * yy_left + far[a] * yy_right;
+          strain.yy[p] += yy;
+          if constexpr (ViscousRow::on) viscous.divergence[p] = (xx + yy) / dt;
           strain.xy[p] += 0.5 * ((near[a] * xy_left + far[a] * xy_right) + yx);
         });
       });
@@ -168,7 +172,12 @@ DIPTYCH_WIDE void strain_row(const Arrangement& places, std::size_t cells, std::
       for_places<n>(count, [&](std::size_t b) DIPTYCH_INLINE {
         for_places<n>(count, [&](std::size_t a) DIPTYCH_INLINE {
           const std::size_t k = b * count + a, p = k * stride + i;
-          const material::Tensor stress = law.stress({strain.xx[p], strain.yy[p], strain.xy[p]}, i, p);
+          material::Tensor stress = law.stress({strain.xx[p], strain.yy[p], strain.xy[p]}, i, p);
+          if constexpr (ViscousRow::on) {
+            const double q = viscous.stress(p);
+            stress.xx += q;
+            stress.yy += q;
+          }
           xx[k] = stress.xx;
           yy[k] = stress.yy;
           xy[k] = stress.xy;

@@ -1,6 +1,9 @@
-// What a particle's stress follows from: its total strain, the crack density of its cell, its plastic strain.
+// What a particle's stress follows from: its total strain, the crack density or dilatancy of its cell, its plastic
+// strain. And the artificial viscosity beside it.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -23,12 +26,17 @@ struct TensorField {
   std::size_t bytes() const { return (xx.capacity() + yy.capacity() + xy.capacity()) * sizeof(double); }
 };
 
-template <bool damaging_, bool plastic_>
+/// What changes the law of a cell.
+enum class Damage { none, cracks, failure_wave };
+
+template <Damage damage, bool plastic_>
 class Law {
  public:
-  static constexpr bool damaging = damaging_, plastic = plastic_;
+  static constexpr bool damaging = damage == Damage::cracks, failing = damage == Damage::failure_wave;
+  static constexpr bool plastic = plastic_;
 
   Law(const Plate& plate, std::size_t cells, std::size_t particles) : whole_(elastic(plate).stiffness()) {
+    if constexpr (failing) failure_ = std::get<material::FailureWave>(plate.material);
     if constexpr (damaging) {
       material_ = std::get<material::TensileDamage>(plate.material);
       crack_density_.assign(cells, 0);
@@ -46,12 +54,15 @@ class Law {
   struct Row {
     material::Stiffness whole;
     const double *normal = nullptr, *cross = nullptr, *shear = nullptr;
+    material::FailureWave failure;
+    const double* dilatancy = nullptr;
     const material::Compression* compression = nullptr;
     double *xx = nullptr, *yy = nullptr, *xy = nullptr;  // plastic strain
 
     /// Of particle p in cell i of the row; brings the plastic strain up to date.
     [[gnu::always_inline]] material::Tensor stress(const material::Tensor& strain, std::size_t i,
                                                    [[maybe_unused]] std::size_t p) const {
+      if constexpr (failing) return failure.stress(strain, dilatancy[i]);
       const material::Stiffness now = stiffness(strain, i);
       if constexpr (plastic) {
         material::PlasticStrain state{xx[p], yy[p], xy[p]};
@@ -86,6 +97,10 @@ class Law {
       r.cross = cross_.data() + first_cell;
       r.shear = shear_.data() + first_cell;
     }
+    if constexpr (failing) {
+      r.failure = failure_;
+      r.dilatancy = dilatancy_.data() + first_cell;
+    }
     if constexpr (plastic) {
       r.compression = &compression_;
       r.xx = plastic_strain_.xx.data() + first_particle;
@@ -103,6 +118,7 @@ class Law {
   }
   /// Stress that stands, for the books and for samples.
   material::Tensor stress(const material::Tensor& strain, std::size_t cell, [[maybe_unused]] std::size_t p) const {
+    if constexpr (failing) return failure_.stress(strain, dilatancy_[cell]);
     const material::Stiffness now = stiffness(strain, cell);
     if constexpr (plastic) {
       material::PlasticStrain copy = plastic_strain_[p];
@@ -113,6 +129,7 @@ class Law {
   }
   /// Recoverable energy [J/m³].
   double stored(const material::Tensor& strain, std::size_t cell, [[maybe_unused]] std::size_t p) const {
+    if constexpr (failing) return failure_.stored(strain, dilatancy_[cell]);
     const material::Stiffness now = stiffness(strain, cell);
     if constexpr (plastic) return material::Compression::stored(now, strain, plastic_strain_[p]);
     return now.stress(strain).contract(strain) / 2;
@@ -130,6 +147,14 @@ class Law {
     }
   }
 
+  /// V_d of the cells, from now on and as it changes.
+  void dilate(std::span<const double> dilatancy) { dilatancy_ = dilatancy; }
+
+  /// What a cell shows of its mean strain to the spread of its dilatancy; NaN of NaN.
+  double ceiling(const material::Tensor& mean) const {
+    return failure_.equivalent_stress(mean) <= failure_.threshold ? 0 : failure_.ceiling(mean);
+  }
+
   std::size_t bytes() const {
     return plastic_strain_.bytes() +
            (crack_density_.capacity() + normal_.capacity() + cross_.capacity() + shear_.capacity()) * sizeof(double);
@@ -138,9 +163,71 @@ class Law {
  private:
   material::Stiffness whole_;
   material::TensileDamage material_;
+  material::FailureWave failure_;
+  std::span<const double> dilatancy_;
   material::Compression compression_;
   std::vector<double> crack_density_, normal_, cross_, shear_;  // of each cell, the last three in tension
   TensorField plastic_strain_;
+};
+
+/// No artificial viscosity.
+struct Inviscid {
+  static constexpr bool on = false;
+};
+
+/// Artificial viscosity of the plate's particles, eq. 21: q adds to both normal stresses in what gives forces.
+class Damping {
+ public:
+  Damping(const material::Viscosity& viscosity, const Plate& plate, const Grid& grid, std::size_t particles)
+      : whole_{viscosity, elastic(plate).density, elastic(plate).pressure_wave_speed(), std::sqrt(grid.hx * grid.hy)},
+        row_largest_(grid.ny) {
+    allocate(divergence_, particles);
+  }
+
+  /// Of a row of cells: plain addresses and what all particles share.
+  struct Row {
+    static constexpr bool on = true;
+    material::Viscosity viscosity;
+    double density = 0, speed = 0, h = 0;  ///< [kg/m³], c_d [m/s], √(hx hy) [m]
+    double largest = 0;                    ///< |D| of all particles where it acts [1/s]
+    double* divergence = nullptr;          ///< D of each particle [1/s]
+    [[gnu::always_inline]] double stress(std::size_t p) const {
+      return viscosity.stress(divergence[p], largest, density, speed, h);
+    }
+  };
+  Row row(std::size_t first_particle) {
+    Row r = whole_;
+    r.divergence = divergence_.data() + first_particle;
+    return r;
+  }
+
+  /// To be told of a row of cells once its D are new, `count` of them from each `first`, and then of all rows.
+  void note(std::size_t row, std::size_t first, std::size_t stride, std::size_t places, std::size_t count) {
+    double largest = 0;
+    for (std::size_t k = 0; k < places; ++k) {
+      const double* D = divergence_.data() + first + k * stride;
+      for (std::size_t i = 0; i < count; ++i) {
+        if (whole_.viscosity.acts(D[i])) largest = std::max(largest, std::abs(D[i]));
+      }
+    }
+    row_largest_[row] = largest;
+  }
+  void find_largest() {
+    whole_.largest = *std::max_element(row_largest_.begin(), row_largest_.end());
+    acted_ |= whole_.largest > 0;
+  }
+  bool acted() const { return acted_; }
+
+  /// q that stands [Pa].
+  double stress(std::size_t p) const {
+    return whole_.viscosity.stress(divergence_[p], whole_.largest, whole_.density, whole_.speed, whole_.h);
+  }
+  std::size_t bytes() const { return (divergence_.capacity() + row_largest_.capacity()) * sizeof(double); }
+
+ private:
+  Row whole_;
+  std::vector<double> divergence_, row_largest_;
+  bool acted_ = false;
 };
 
 }  // namespace diptych::mpm

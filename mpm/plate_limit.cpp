@@ -12,6 +12,7 @@
 #include <cmath>
 #include <complex>
 
+#include "material/viscous_step.hpp"
 #include "mpm/plate.hpp"
 
 namespace diptych::mpm {
@@ -164,17 +165,10 @@ double block(const Setting& s, const Plate& plate, bool free, int nx, int ny) {
   return Eigen::EigenSolver<Matrix>(phi * A, false).eigenvalues().real().maxCoeff();
 }
 
-}  // namespace
-
-double critical_time_step(const Plate& plate, const Cells& cells, const std::vector<double>& positions, Scheme scheme) {
-  Setting s{elastic(plate).stiffness(),
-            elastic(plate).density,
-            plate.width / cells.x,
-            plate.height / cells.y,
-            scheme,
-            plate.pic,
-            {},
-            {}};
+/// Of a plate of this solid without viscosity.
+double limit_of(const material::PlaneElastic& solid, const Plate& plate, const Cells& cells,
+                const std::vector<double>& positions, Scheme scheme) {
+  Setting s{solid.stiffness(), solid.density, plate.width / cells.x, plate.height / cells.y, scheme, plate.pic, {}, {}};
   for (const double xi : positions) {
     const double offset = std::clamp(xi - 0.5, -edge, edge);
     s.near.push_back(0.5 - offset);
@@ -200,6 +194,22 @@ double critical_time_step(const Plate& plate, const Cells& cells, const std::vec
     }
   }
   return 2 / std::sqrt(largest);
+}
+
+}  // namespace
+
+double critical_time_step(const Plate& plate, const Cells& cells, const std::vector<double>& positions, Scheme scheme) {
+  material::PlaneElastic solid = elastic(plate);
+  double density_times_viscosity = 0;
+  if (plate.viscosity) {
+    const double speed = solid.pressure_wave_speed(), area = (plate.width / cells.x) * (plate.height / cells.y);
+    density_times_viscosity = solid.density * speed * std::sqrt(area) * plate.viscosity->strength(speed, 0);
+  }
+  if (const auto* failure = std::get_if<material::FailureWave>(&plate.material))
+    solid.youngs_modulus *= failure->stiffening();
+  return material::viscous_time_step(solid, density_times_viscosity, [&](const material::PlaneElastic& stiffer) {
+    return limit_of(stiffer, plate, cells, positions, scheme);
+  });
 }
 
 }  // namespace diptych::mpm

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "mpm/plate_grid.hpp"
@@ -88,12 +89,16 @@ class Standing {
   static constexpr bool moving = false;
 
   Standing(const Plate&, const Cells&, const Places& places, Grid& grid)
-      : grid_(grid), places_(places.arrangement()), offset_(places.offset), stride_(off_pages(grid.nx, per_cell())) {}
+      : grid_(grid),
+        places_(places.arrangement()),
+        offset_(places.offset),
+        columns_(grid.columns()),
+        stride_(off_pages(columns_, per_cell())) {}
 
   State& state() { return state_; }
   const State& state() const { return state_; }
   std::size_t per_cell() const { return places_.count * places_.count; }
-  std::size_t count() const { return grid_.nx * grid_.ny * per_cell(); }
+  std::size_t count() const { return columns_ * grid_.ny * per_cell(); }
   std::size_t storage() const { return stride_ * grid_.ny * per_cell(); }
   std::size_t bytes() const { return state_.bytes(); }
   static std::string trouble() { return {}; }
@@ -106,16 +111,16 @@ class Standing {
   /// Calls f(place) for the particles that stand in a row of cells.
   template <class F>
   void visit_row(std::size_t j, F&& f) const {
-    for (std::size_t i = 0; i < grid_.nx; ++i) {
+    for (std::size_t i = 0; i < columns_; ++i) {
       for (std::size_t k = 0; k < per_cell(); ++k) {
         const std::size_t a = k % places_.count, b = k / places_.count;
-        f(Place{index(i, j, k), grid_.row(j) + i, grid_.next_row(), j * grid_.nx + i, places_.near[a], places_.far[a],
-                places_.near[b], places_.far[b]});
+        f(Place{index(i, j, k), grid_.row(j) + grid_.column(i), grid_.next_row(), j * columns_ + i, places_.near[a],
+                places_.far[a], places_.near[b], places_.far[b]});
       }
     }
   }
   Vector position(const Place& at) const {
-    const std::size_t k = at.particle / stride_ % per_cell(), j = at.cell / grid_.nx, i = at.cell % grid_.nx;
+    const std::size_t k = at.particle / stride_ % per_cell(), j = at.cell / columns_, i = at.cell % columns_;
     return {(static_cast<double>(i) + 0.5 + offset_[k % places_.count]) * grid_.hx,
             (static_cast<double>(j) + 0.5 + offset_[k / places_.count]) * grid_.hy};
   }
@@ -123,12 +128,11 @@ class Standing {
   void map_mass(Bands&) {  // eq. 15: the product of what stands beside and above a node
     const double near = pair_sum<0>(places_.count, [&](std::size_t a) { return places_.near[a]; });
     const double far = pair_sum<0>(places_.count, [&](std::size_t a) { return places_.far[a]; });
-    const auto along = [&](std::size_t node, std::size_t last) {
-      return node == 0 ? near : node == last ? far : far + near;
-    };
+    const auto along = [&](bool first, bool last) { return first ? near : last ? far : far + near; };
     for (std::size_t j = 0; j < 3; ++j) {
       for (std::size_t i = 0; i <= grid_.nx; ++i)
-        grid_.mass[grid_.row(j) + i] = state_.mass * (along(i, grid_.nx) * along(j, 2));
+        grid_.mass[grid_.row(j) + i] =
+            state_.mass * (along(grid_.ends_left(i), grid_.ends_right(i)) * along(j == 0, j == 2));
     }
   }
 
@@ -142,22 +146,36 @@ class Standing {
       kick_and_move<false>(bands, kick, drift, pic, from_kicked);
   }
 
-  template <Do what, class LawOf>
-  void strain_and_force(Bands& bands, const VectorField& velocity, double dt, LawOf& law) {
+  /// viscous: Inviscid or Damping. Damping knows the largest |D| only after all strains, so never Do::both with it.
+  template <Do what, class LawOf, class Viscous>
+  void strain_and_force(Bands& bands, const VectorField& velocity, double dt, LawOf& law, Viscous& viscous) {
+    constexpr bool damped = std::is_same_v<Viscous, Damping>;
+    static_assert(!damped || what != Do::both);
+    const auto viscous_row = [&]([[maybe_unused]] std::size_t first) {
+      if constexpr (damped)
+        return viscous.row(first);
+      else
+        return viscous;
+    };
     const auto cells = [&](std::size_t j, Band& band) {
-      const std::size_t first = index(0, j, 0), low = grid_.row(j), high = grid_.row(j + 1);
-      with_count([&]<std::size_t n>() {
-        strain_row<n, what>(
-            places_, grid_.nx, stride_, dt, grid_.hx, grid_.hy, state_.volume,
-            {velocity.x.data() + low, velocity.x.data() + high}, {velocity.y.data() + low, velocity.y.data() + high},
-            {state_.strain.xx.data() + first, state_.strain.yy.data() + first, state_.strain.xy.data() + first},
-            law.row(j * grid_.nx, first), ShareRows(band.shares[0]), ShareRows(band.shares[1]));
+      for_runs([&](std::size_t from, std::size_t node, std::size_t length) {
+        const std::size_t first = index(from, j, 0), low = grid_.row(j) + node, high = grid_.row(j + 1) + node;
+        with_count([&]<std::size_t n>() {
+          strain_row<n, what>(
+              places_, length, stride_, dt, grid_.hx, grid_.hy, state_.volume,
+              {velocity.x.data() + low, velocity.x.data() + high}, {velocity.y.data() + low, velocity.y.data() + high},
+              {state_.strain.xx.data() + first, state_.strain.yy.data() + first, state_.strain.xy.data() + first},
+              law.row(j * columns_ + from, first), viscous_row(first), ShareRows(band.shares[0], node),
+              ShareRows(band.shares[1], node));
+        });
       });
+      if constexpr (damped && what == Do::strain) viscous.note(j, index(0, j, 0), stride_, per_cell(), columns_);
     };
     if constexpr (what == Do::strain) {
       bands.for_each([&](Band& band) {
         for (std::size_t j = band.first; j < band.last; ++j) cells(j, band);
       });
+      if constexpr (damped) viscous.find_largest();
     } else {
       bands.gather(cells, [&](std::size_t j, const double* x, const double* y) { accelerate(grid_, j, x, y); });
     }
@@ -191,6 +209,15 @@ class Standing {
   }
 
  private:
+  /// Calls f(first column of particles, first of nodes, columns) for a row's cells: for all at once, or for those on
+  /// either side of the cut.
+  template <class F>
+  void for_runs(F&& f) const {
+    const std::size_t cut = std::min(grid_.cut, columns_);
+    f(std::size_t{0}, std::size_t{0}, cut);
+    if (cut < columns_) f(cut, cut + 1, columns_ - cut);
+  }
+
   /// One and two particles along a side are known to the compiler beforehand.
   template <class F>
   void with_count(F&& f) const {
@@ -225,12 +252,15 @@ class Standing {
             kx = {band.low[0].data(), band.high[0].data()};
             ky = {band.low[1].data(), band.high[1].data()};
           }
-          const std::size_t first = index(0, j, 0), low = grid_.row(j), high = grid_.row(j + 1);
           const auto row = [&](std::size_t c, const std::vector<double>& a, NodeRows k, std::vector<double>& v,
                                std::vector<double>& u) {
-            with_count([&]<std::size_t n>() {
-              kick_row<n, pic>(places_, grid_.nx, stride_, kick, drift, part, {a.data() + low, a.data() + high}, k,
-                               v.data() + first, u.data() + first, ShareRows(band.shares[c]));
+            for_runs([&](std::size_t from, std::size_t node, std::size_t count) {
+              const std::size_t first = index(from, j, 0), low = grid_.row(j) + node, high = grid_.row(j + 1) + node;
+              with_count([&]<std::size_t n>() {
+                kick_row<n, pic>(places_, count, stride_, kick, drift, part, {a.data() + low, a.data() + high},
+                                 {k.low + node, k.high + node}, v.data() + first, u.data() + first,
+                                 ShareRows(band.shares[c], node));
+              });
             });
           };
           row(0, grid_.acceleration.x, kx, state_.velocity.x, state_.displacement.x);
@@ -251,7 +281,7 @@ class Standing {
   Grid& grid_;
   Arrangement places_;
   std::vector<double> offset_;
-  std::size_t stride_;
+  std::size_t columns_, stride_;
   State state_;
 };
 
@@ -353,7 +383,7 @@ class Moving {
   }
 
   template <Do what, class LawOf>
-  void strain_and_force(Bands& bands, const VectorField& velocity, double dt, LawOf& law) {
+  void strain_and_force(Bands& bands, const VectorField& velocity, double dt, LawOf& law, Inviscid) {
     bands.for_each([&](Band& band) {
       for (std::size_t j = band.first; j < band.last; ++j) {
         visit_row(j, [&](const Place& at) {

@@ -29,6 +29,9 @@ constexpr double ticks_across = 62, ticks_down = 34;           // gaps between p
 constexpr double axis_across = 90, axis_down = 62;             // and with axis labels of their own
 constexpr double y_label_offset = 72;                          // from a panel's left side
 constexpr double sample = 34, sample_gap = 7, entry_gap = 26;  // of the legend
+constexpr double tag_line = 18, tag_bar = 3, tag_gap = 8;      // of the labels above a panel: rows, bars, least gap
+constexpr double small_label = 14;                             // height of a label beside a mark
+constexpr std::size_t span_styles = 110, mark_style = 109;     // gnuplot's line styles
 
 /// How a series looks. Colours after Okabe & Ito; shapes differ too, for print without colour.
 struct Look {
@@ -42,12 +45,45 @@ Look look(const std::string& kind, std::size_t nth) {
                                                "lw 1.4 lc rgb '#56b4e9' dt (2,3)"};
     return {lines[nth % lines.size()], false};
   }
+  if (kind == "fem-thin") {
+    constexpr std::array<const char*, 3> lines{"lw 0.8 lc rgb '#08306b' dt (14,6)",
+                                               "lw 0.8 lc rgb '#0072b2' dt (14,6,3,6)",
+                                               "lw 0.8 lc rgb '#56b4e9' dt (6,10)"};
+    return {lines[nth % lines.size()], false};
+  }
+  if (kind == "mpm-thin") {
+    constexpr std::array<const char*, 3> lines{"lc rgb '#d55e00' pt 2 ps 0.5", "lc rgb '#009e73' pt 1 ps 0.6",
+                                               "lc rgb '#cc79a7' pt 3 ps 0.6"};
+    return {lines[nth % lines.size()], true};
+  }
   if (kind == "mpm") {
     constexpr std::array<const char*, 3> lines{"lc rgb '#d55e00' pt 6 ps 0.55", "lc rgb '#009e73' pt 4 ps 0.5",
                                                "lc rgb '#cc79a7' pt 8 ps 0.65"};
     return {lines[nth % lines.size()], true};
   }
   return {"lw 1.2 lc rgb '#000000'", false};
+}
+
+/// How the nth kind of span looks. A tint tells colours apart and not shades of grey, so that bands that overlap add up
+/// to a darker one; without colour, kinds differ by the dashes of their edges and of the bars that carry their labels.
+struct SpanLook {
+  const char *tint, *edge;
+};
+SpanLook span_look(std::size_t nth) {
+  constexpr std::array<SpanLook, 4> looks{{{"#56b4e9", "lw 1.1 lc rgb '#1f5f8b'"},
+                                           {"#e69f00", "lw 1.1 lc rgb '#8a5a00' dt (9,4)"},
+                                           {"#009e73", "lw 1.1 lc rgb '#00604a' dt (2,3)"},
+                                           {"#999999", "lw 1.1 lc rgb '#4d4d4d' dt (9,4,2,4)"}}};
+  return looks[nth % looks.size()];
+}
+
+/// Kinds of spans in the order of their first mention.
+std::vector<std::string> span_kinds(const Figure& figure) {
+  std::vector<std::string> kinds;
+  for (const Figure::Panel& panel : figure.panels)
+    for (const Figure::Span& span : panel.spans)
+      if (std::find(kinds.begin(), kinds.end(), span.kind) == kinds.end()) kinds.push_back(span.kind);
+  return kinds;
 }
 
 /// One entry of the legend: all series of this label, in every panel.
@@ -57,7 +93,8 @@ struct Entry {
   std::size_t interval = 1;  ///< a marker at every so many points; in a motion diagram the most of all panels
   bool motion = false;
   double x = 0;          ///< of its sample in the legend [px]
-  std::size_t line = 0;  ///< of the legend
+  std::size_t line = 0;  ///< of the legend, the first of this entry's
+  std::vector<std::string> lines = {};
   std::string text() const;
 };
 
@@ -69,6 +106,18 @@ struct Box {
 struct Frame {
   double x_min = 0, x_max = 1, y_min = 0, y_max = 1;
   bool operator==(const Frame&) const = default;
+};
+
+/// Label of a span or of a vertical mark, in rows of its own above the panel [px from the panel's left side].
+struct Tag {
+  std::vector<std::string> lines = {};
+  double from = 0, to = 0;   ///< the span, as far as it is seen, or the mark
+  double text = 0;           ///< where the words begin, or end if they stand to the left
+  bool to_left = false;      ///< of a mark or of a span's end, at the right side of the panel
+  double low = 0, high = 0;  ///< the place it needs
+  std::size_t row = 0;       ///< its lowest, counted from the panel upwards
+  const Figure::Span* span = nullptr;
+  const Figure::Mark* mark = nullptr;
 };
 
 /// What some panel has of its own: each must then show its own ticks, or its own axis labels with them.
@@ -86,6 +135,8 @@ struct Layout {
   std::vector<Frame> frames;                     ///< y_max with room for the labels where data leave none
   std::vector<std::vector<std::string>> labels;  ///< lines of each panel's label
   std::vector<Box> places;
+  std::vector<std::vector<Tag>> tags;         ///< of each panel
+  std::vector<std::vector<Box>> mark_labels;  ///< of each panel's marks; empty for those with a tag or without label
 };
 
 double length_of(const std::vector<std::string>& lines) {
@@ -155,52 +206,70 @@ Seen seen(const Curve& curve, const Frame& frame, double panel_width, double pan
   return total;
 }
 
+bool in_sight(const Figure::Span& span, const Frame& frame) {
+  return span.to >= frame.x_min && span.from <= frame.x_max;
+}
+bool in_sight(const Figure::Mark& mark, const Frame& frame) {
+  return mark.vertical ? mark.at >= frame.x_min && mark.at <= frame.x_max
+                       : mark.at >= frame.y_min && mark.at <= frame.y_max;
+}
+
 /// Label of the panel, and which series it cannot show: a lost one must not look like a hidden one.
 std::string label_of(const Figure& figure, const Figure::Panel& panel) {
   const bool magnified = panel.x_range || panel.y_range;
   std::string missing, outside;
+  const auto add = [](std::string& list, const std::string& name) { list += (list.empty() ? "" : ", ") + name; };
   for (const Figure::Series& series : panel.series) {
     if (!drawable(series))
-      missing += (missing.empty() ? "" : ", ") + series.label;
+      add(missing, series.label);
     else if (magnified && !seen(series.curve, frame_of(figure, panel), 1, 1).any)
-      outside += (outside.empty() ? "" : ", ") + series.label;
+      add(outside, series.label);
   }
+  const Frame frame = frame_of(figure, panel);
+  for (const Figure::Span& span : panel.spans)
+    if (!in_sight(span, frame)) add(outside, span.label.empty() ? span.kind : span.label);
+  for (const Figure::Mark& mark : panel.marks)
+    if (!in_sight(mark, frame)) add(outside, mark.label.empty() ? "a mark" : mark.label);
   std::string label = panel.label;
   if (!missing.empty()) label += " [no finite values: " + missing + "]";
   if (!outside.empty()) label += " [outside the axes: " + outside + "]";
   return label;
 }
 
-/// Whether any curve of the panel passes through the box.
-bool crossed(const Figure::Panel& panel, const Frame& frame, const Layout& layout, const Box& box) {
+/// Whether the curve passes through the box.
+bool passes(const Curve& curve, const Frame& frame, const Layout& layout, const Box& box) {
   constexpr double clearance = 5;
   const double x_scale = layout.panel_width / (frame.x_max - frame.x_min);
   const double y_scale = layout.panel_height / (frame.y_max - frame.y_min);
-  for (const Figure::Series& series : panel.series) {
-    double last_x = 0, last_y = 0;
-    bool has_last = false;
-    for (std::size_t i = 0; i < series.curve.x.size(); ++i) {
-      const double x = (series.curve.x[i] - frame.x_min) * x_scale;
-      const double y = (frame.y_max - series.curve.y[i]) * y_scale;
-      const bool good = std::isfinite(x) && std::isfinite(y);
-      if (good) {
-        const double reach = has_last ? std::max(std::abs(x - last_x), std::abs(y - last_y)) : 0;
-        const int pieces = static_cast<int>(std::clamp(reach / 3, 1.0, 1000.0));
-        for (int k = has_last ? 0 : pieces; k <= pieces; ++k) {
-          const double share = static_cast<double>(k) / pieces;
-          const double px = has_last ? last_x + share * (x - last_x) : x;
-          const double py = has_last ? last_y + share * (y - last_y) : y;
-          if (px > box.x - clearance && px < box.x + box.w + clearance && py > box.y - clearance &&
-              py < box.y + box.h + clearance)
-            return true;
-        }
+  double last_x = 0, last_y = 0;
+  bool has_last = false;
+  for (std::size_t i = 0; i < curve.x.size(); ++i) {
+    const double x = (curve.x[i] - frame.x_min) * x_scale;
+    const double y = (frame.y_max - curve.y[i]) * y_scale;
+    const bool good = std::isfinite(x) && std::isfinite(y);
+    if (good) {
+      const double reach = has_last ? std::max(std::abs(x - last_x), std::abs(y - last_y)) : 0;
+      const int pieces = static_cast<int>(std::clamp(reach / 3, 1.0, 1000.0));
+      for (int k = has_last ? 0 : pieces; k <= pieces; ++k) {
+        const double share = static_cast<double>(k) / pieces;
+        const double px = has_last ? last_x + share * (x - last_x) : x;
+        const double py = has_last ? last_y + share * (y - last_y) : y;
+        if (px > box.x - clearance && px < box.x + box.w + clearance && py > box.y - clearance &&
+            py < box.y + box.h + clearance)
+          return true;
       }
-      has_last = good;
-      last_x = x;
-      last_y = y;
     }
+    has_last = good;
+    last_x = x;
+    last_y = y;
   }
   return false;
+}
+
+/// Whether any curve of the panel passes through the box.
+bool crossed(const Figure::Panel& panel, const Frame& frame, const Layout& layout, const Box& box) {
+  return std::any_of(panel.series.begin(), panel.series.end(),
+                     [&](const Figure::Series& series) { return passes(series.curve, frame, layout, box); });
 }
 
 /// Finds for each panel's label a place that no curve crosses; false where a panel has none.
@@ -220,6 +289,100 @@ bool place_labels(const Figure& figure, Layout& layout) {
     if (!found) return false;
   }
   return true;
+}
+
+/// Finds a place along the line of each horizontal mark, which nothing crosses; or no curve; or else at the right end.
+std::vector<Box> place_mark_labels(const Figure::Panel& panel, const Frame& frame, const Layout& layout) {
+  constexpr double off = 3, edge = 6, step = 10;
+  Figure::Panel lines;  // of other marks and the edges of spans
+  const auto add_line = [&](Curve line) { lines.series.push_back({"", "", std::move(line)}); };
+  const auto upright = [&](double x) { add_line({{x, x}, {frame.y_min, frame.y_max}}); };
+  std::vector<Box> boxes;
+  for (const Figure::Mark& mark : panel.marks) {
+    boxes.push_back({});
+    if (mark.vertical || mark.label.empty() || !in_sight(mark, frame)) continue;
+    lines.series.clear();
+    for (const Figure::Mark& other : panel.marks)
+      if (other.vertical)
+        upright(other.at);
+      else if (&other != &mark)
+        add_line({{frame.x_min, frame.x_max}, {other.at, other.at}});
+    for (const Figure::Span& span : panel.spans) upright(span.from), upright(span.to);
+
+    const double w = static_cast<double>(characters(mark.label)) * note_char;
+    const double line = (frame.y_max - mark.at) / (frame.y_max - frame.y_min) * layout.panel_height;
+    const double above = line - off - small_label, below = line + off, far = layout.panel_width - w - edge;
+    const auto free = [&](const Box& box, bool of_lines) {
+      const auto apart = [&](const Box& other) {
+        return box.x > other.x + other.w + off || other.x > box.x + box.w + off || box.y > other.y + other.h ||
+               other.y > box.y + box.h;
+      };
+      return box.y >= 0 && box.y + box.h <= layout.panel_height && std::all_of(boxes.begin(), boxes.end(), apart) &&
+             !crossed(panel, frame, layout, box) && !(of_lines && crossed(lines, frame, layout, box));
+    };
+    const auto find = [&](bool of_lines) -> Box {
+      for (double x = far; x >= edge; x -= step)
+        for (const double y : {above, below})
+          if (const Box box{x, y, w, small_label}; free(box, of_lines)) return box;
+      return {};
+    };
+    Box best = find(true);
+    if (!(best.w > 0)) best = find(false);
+    boxes.back() = best.w > 0 ? best : Box{far, above < 0 ? below : above, w, small_label};
+  }
+  return boxes;
+}
+
+/// Labels of spans and vertical marks, each in the lowest row that has room for it. Marks come first, so that their
+/// lines go on up to their labels without crossing another.
+std::vector<Tag> tags_of(const Figure::Panel& panel, const Frame& frame, double across) {
+  std::vector<Tag> marks, spans, placed;
+  const auto add = [&](std::vector<Tag>& tags, Tag tag, double from, double to, const std::string& label) {
+    const auto pixels = [&](double x) {
+      return (std::clamp(x, frame.x_min, frame.x_max) - frame.x_min) / (frame.x_max - frame.x_min) * across;
+    };
+    tag.lines = lines_of(label, across - tag_gap, note_char);
+    if (tag.lines.empty()) return;
+    std::size_t longest = 0;
+    for (const std::string& line : tag.lines) longest = std::max(longest, characters(line));
+    const double w = static_cast<double>(longest) * note_char, off = tag.mark != nullptr ? 4 : 0;
+    tag.from = pixels(from);
+    tag.to = pixels(to);
+    tag.to_left = tag.from + off + w > across && tag.to - off - w >= 0;
+    tag.text = tag.to_left ? tag.to - off : std::max(0.0, std::min(tag.from + off, across - w));
+    tag.low = std::min(tag.from, tag.to_left ? tag.text - w : tag.text);
+    tag.high = std::max(tag.to, tag.to_left ? tag.text : tag.text + w);
+    tags.push_back(std::move(tag));
+  };
+  for (const Figure::Mark& mark : panel.marks)
+    if (mark.vertical && in_sight(mark, frame)) add(marks, {.mark = &mark}, mark.at, mark.at, mark.label);
+  for (const Figure::Span& span : panel.spans)
+    if (in_sight(span, frame)) add(spans, {.span = &span}, span.from, span.to, span.label);
+
+  // What lies under a label must have been placed before it: from the right, or from the left where words end at a
+  // mark.
+  std::stable_sort(marks.begin(), marks.end(), [](const Tag& a, const Tag& b) {
+    return a.to_left != b.to_left ? a.to_left : a.to_left ? a.from < b.from : a.from > b.from;
+  });
+  for (std::vector<Tag>* tags : {&marks, &spans})
+    for (Tag& tag : *tags) {
+      const auto clear = [&](const Tag& other) {
+        const bool apart = tag.low >= other.high + tag_gap || other.low >= tag.high + tag_gap;
+        const bool other_rows = tag.row >= other.row + other.lines.size() || other.row >= tag.row + tag.lines.size();
+        const bool line_crosses =
+            other.mark != nullptr && other.row > tag.row && other.from > tag.low - 2 && other.from < tag.high + 2;
+        return (apart || other_rows) && !line_crosses;
+      };
+      while (!std::all_of(placed.begin(), placed.end(), clear)) ++tag.row;
+      placed.push_back(std::move(tag));
+    }
+  return placed;
+}
+
+bool crowded(const Figure::Panel& panel) { return !panel.spans.empty() || !panel.marks.empty(); }
+bool crowded(const Figure& figure) {
+  return std::any_of(figure.panels.begin(), figure.panels.end(),
+                     [](const Figure::Panel& panel) { return crowded(panel); });
 }
 
 std::size_t columns_for(const Figure& figure) {
@@ -251,30 +414,37 @@ Layout layout_of(const Figure& figure, const Heading& heading, std::size_t legen
   layout.row_gap = gap_down(layout.own);
   layout.legend = margin + heading.height() + 6;
   layout.top = layout.legend + legend_line * static_cast<double>(legend_lines) + 8;
-  std::size_t most = 1;
+  std::size_t most = 1, tag_rows = 0;
   for (const Figure::Panel& panel : figure.panels) {
     layout.frames.push_back(frame_of(figure, panel));
-    layout.labels.push_back(
-        lines_of(label_of(figure, panel), layout.panel_width - (figure.motion ? 0 : 24), label_char));
+    layout.labels.push_back(lines_of(label_of(figure, panel),
+                                     layout.panel_width - (figure.motion || crowded(figure) ? 0 : 24), label_char));
     most = std::max(most, layout.labels.back().size());
+    layout.tags.push_back(tags_of(panel, layout.frames.back(), layout.panel_width));
+    for (const Tag& tag : layout.tags.back()) tag_rows = std::max(tag_rows, tag.row + tag.lines.size());
   }
+  const double tags = tag_rows > 0 ? tag_line * static_cast<double>(tag_rows) + 4 : 0;
+  layout.top += tags;
+  layout.row_gap += tags;
   const double strip = label_line * static_cast<double>(most) + 8;
   const auto in_strip = [&](double x, double y) {
     layout.places.clear();
     for (const auto& lines : layout.labels)
       layout.places.push_back({x, y, length_of(lines), label_line * static_cast<double>(lines.size())});
   };
-  if (figure.motion) {
-    // Paths go everywhere and time must not seem to go on: labels stand above the panels.
+  if (figure.motion || crowded(figure)) {
+    // Paths go everywhere and time must not seem to go on, edges and marks cross the panel: labels stand above it.
     layout.top += strip;
     layout.row_gap += strip;
-    in_strip(0, 2 - strip);
+    in_strip(0, 2 - strip - tags);
   } else if (!place_labels(figure, layout)) {
     // Data fill some panel: lift the axis of all, so that labels have a strip of their own above y_max.
     for (Frame& frame : layout.frames) frame.y_max += (frame.y_max - frame.y_min) * strip / layout.panel_height;
     layout.panel_height += strip;
     in_strip(10, 4);
   }
+  for (std::size_t i = 0; i < count; ++i)
+    layout.mark_labels.push_back(place_mark_labels(figure.panels[i], layout.frames[i], layout));
   layout.height = layout.top + rows * layout.panel_height + (rows - 1) * layout.row_gap + x_axis;
   return layout;
 }
@@ -324,10 +494,12 @@ std::vector<Entry> entries_of(const Figure& figure) {
   double x = left;
   std::size_t line = 0;
   for (Entry& entry : entries) {
-    const double needed = sample + sample_gap + static_cast<double>(characters(entry.text())) * label_char;
+    entry.lines = lines_of(entry.text(), width - right - left - sample - sample_gap, label_char);
+    const double needed = sample + sample_gap + length_of(entry.lines);
     if (x > left && x + needed > width - right) x = left, ++line;
     entry.x = x;
     entry.line = line;
+    line += std::max<std::size_t>(entry.lines.size(), 1) - 1;
     x += needed + entry_gap;
   }
   return entries;
@@ -367,10 +539,19 @@ void write_head(Gnuplot& gp, const Figure& figure, const Heading& heading, const
     const Entry& entry = entries[i];
     std::string style = entry.appearance.line;
     // Markers joined by a line: a thin one, which leaves what lies beneath in sight.
-    if (entry.appearance.markers)
-      style += entry.motion ? " lw 0.9" : entry.interval > 1 ? fmt::format(" lw 0.9 pi {}", entry.interval) : " lw 1.3";
+    if (entry.appearance.markers) {
+      const char *joined = entry.kind == "mpm-thin" ? " lw 0.5" : " lw 0.9", *alone = " lw 1.3";
+      style += entry.motion || entry.interval > 1 ? joined : alone;
+      if (!entry.motion && entry.interval > 1) style += fmt::format(" pi {}", entry.interval);
+    }
     gp << "set style line " << i + 1 << ' ' << style << "  # " << quoted(entry.label) << '\n';
   }
+  const std::vector<std::string> kinds = span_kinds(figure);
+  for (std::size_t i = 0; i < kinds.size(); ++i)
+    gp << "set style line " << span_styles + i << ' ' << span_look(i).edge << "  # edges of spans of kind "
+       << quoted(kinds[i]) << '\n';
+  if (std::any_of(figure.panels.begin(), figure.panels.end(), [](const auto& panel) { return !panel.marks.empty(); }))
+    gp << "set style line " << mark_style << " lw 0.9 lc rgb '#333333' dt (10,3,2,3)  # marks\n";
   gp << "set style line 100 lw 0.7 lc rgb '#e4e4e4'  # grid\n"
      << "set style line 101 lw 0.9 lc rgb '#707070'  # axes\n\n"
      << (layout.own.any_range() ? "set clip two  # a line may cross a panel without a point in it\n\n" : "")
@@ -403,7 +584,9 @@ void write_head(Gnuplot& gp, const Figure& figure, const Heading& heading, const
                         (entry.x + sample) / width, at, style);
     if (entry.appearance.markers)
       gp << fmt::format("set label '' at screen {:.6f},{} point {}\n", (entry.x + sample / 2) / width, at, style);
-    text(entry.text(), entry.x + sample + sample_gap, middle, "left font ',12' textcolor rgb '#222222'");
+    for (std::size_t k = 0; k < entry.lines.size(); ++k)
+      text(entry.lines[k], entry.x + sample + sample_gap, middle + legend_line * static_cast<double>(k),
+           "left font ',12' textcolor rgb '#222222'");
   }
   gp << "plot [0:1] [0:1] NaN notitle\nunset label; unset arrow\n\n";
 }
@@ -417,6 +600,60 @@ void write_magnified(Gnuplot& gp, const Layout& layout, std::size_t index) {
     if (inside && inner != outer)
       gp << fmt::format("set object rectangle from {},{} to {},{} front fillstyle empty border rgb '#111111' lw 1.1\n",
                         inner.x_min, inner.y_min, inner.x_max, inner.y_max);
+  }
+}
+
+/// Spans and marks with their labels; x0 and y0: the panel's upper left corner [px].
+void write_spans_and_marks(Gnuplot& gp, const Figure& figure, std::size_t index, const Layout& layout, double x0,
+                           double y0) {
+  const Figure::Panel& panel = figure.panels[index];
+  const Frame& frame = layout.frames[index];
+  const std::vector<std::string> kinds = span_kinds(figure);
+  const auto nth = [&](const Figure::Span& span) {
+    return static_cast<std::size_t>(std::find(kinds.begin(), kinds.end(), span.kind) - kinds.begin());
+  };
+  const auto screen_y = [&](double y) { return 1 - (y0 + y) / layout.height; };
+  const auto words = [&](const std::string& text, double x, double y, const char* side) {
+    gp << "set label " << quoted(text)
+       << fmt::format(" at screen {:.6f},{:.6f} {} front font ',11' textcolor rgb '#222222'\n", (x0 + x) / width,
+                      screen_y(y), side);
+  };
+  for (const Figure::Span& span : panel.spans) {
+    if (!in_sight(span, frame)) continue;
+    const double from = std::max(span.from, frame.x_min), to = std::min(span.to, frame.x_max);
+    gp << fmt::format(
+        "set object rectangle from {},graph 0 to {},graph 1 behind fillcolor rgb '{}' "
+        "fillstyle transparent solid 0.18 noborder\n",
+        from, to, span_look(nth(span)).tint);
+    for (const double edge : {span.from, span.to})
+      if (edge >= frame.x_min && edge <= frame.x_max)
+        gp << fmt::format("set arrow from {0},graph 0 to {0},graph 1 nohead back ls {1}\n", edge,
+                          span_styles + nth(span));
+  }
+  for (std::size_t i = 0; i < panel.marks.size(); ++i) {
+    const Figure::Mark& mark = panel.marks[i];
+    if (!in_sight(mark, frame)) continue;
+    const std::string at = fmt::format("{}", mark.at);
+    gp << (mark.vertical ? "set arrow from " + at + ",graph 0 to " + at + ",graph 1"
+                         : "set arrow from graph 0,first " + at + " to graph 1,first " + at)
+       << " nohead front ls " << mark_style << '\n';
+    const Box& box = layout.mark_labels[index][i];
+    if (box.w > 0) words(mark.label, box.x, box.y + box.h / 2, "left");
+  }
+  for (const Tag& tag : layout.tags[index]) {
+    const double bottom = -2 - tag_line * static_cast<double>(tag.row);
+    const double top = bottom - tag_line * static_cast<double>(tag.lines.size());
+    for (std::size_t i = 0; i < tag.lines.size(); ++i)
+      words(tag.lines[i], tag.text, top + tag_line * (static_cast<double>(i) + 0.5) - tag_bar / 2,
+            tag.to_left ? "right" : "left");
+    if (tag.mark != nullptr)
+      gp << fmt::format("set arrow from {0},graph 1 to {0},screen {1:.6f} nohead front ls {2}\n", tag.mark->at,
+                        screen_y(top + 2), mark_style);
+    else  // a bar over the span, with ends of 5 px
+      gp << fmt::format(
+          "set arrow from {0},screen {2:.6f} to {1},screen {2:.6f} heads size screen {3:.6f},90 front ls {4}\n",
+          std::max(tag.span->from, frame.x_min), std::min(tag.span->to, frame.x_max), screen_y(bottom - tag_bar / 2),
+          2.5 / width, span_styles + nth(*tag.span));
   }
 }
 
@@ -511,6 +748,7 @@ void write_panel(Gnuplot& gp, const Figure& figure, std::size_t index, const Lay
        << fmt::format(" at screen {:.6f},{:.6f} center font ',12' textcolor rgb '#222222'\n",
                       (x0 + layout.panel_width / 2) / width, 1 - (y0 + layout.panel_height + 34) / layout.height);
   if (figure.motion) write_magnified(gp, layout, index);
+  if (crowded(panel)) write_spans_and_marks(gp, figure, index, layout, x0, y0);
   const Box& place = layout.places[index];
   const bool to_right = place.x > layout.panel_width / 2 - place.w / 2 + 1;
   for (std::size_t i = 0; i < layout.labels[index].size(); ++i)
@@ -527,13 +765,16 @@ void write_panel(Gnuplot& gp, const Figure& figure, std::size_t index, const Lay
     gp << (i == 0 ? "" : ", ") << "'-' with " << elements[i].style << " ls " << elements[i].look;
   gp << '\n';
   for (const Element& element : elements) gp.send1d(points_of(element));
-  gp << "unset label" << (figure.motion ? "; unset object" : "") << "\n\n";
+  gp << "unset label" << (figure.motion || crowded(panel) ? "; unset object" : "")
+     << (crowded(panel) ? "; unset arrow" : "") << "\n\n";
 }
 
 void write_script(Gnuplot& gp, const Figure& figure) {
   const Heading heading = heading_of(figure.title, figure.notes, width - left - right);
   const std::vector<Entry> entries = entries_of(figure);
-  const Layout layout = layout_of(figure, heading, entries.empty() ? 0 : entries.back().line + 1);
+  const Layout layout =
+      layout_of(figure, heading,
+                entries.empty() ? 0 : entries.back().line + std::max<std::size_t>(entries.back().lines.size(), 1));
   gp << std::setprecision(16);  // 17 significant digits: enough to read the same double back
   write_head(gp, figure, heading, layout, entries);
   for (std::size_t i = 0; i < figure.panels.size(); ++i) write_panel(gp, figure, i, layout, entries);
@@ -550,6 +791,13 @@ std::string csv_of(const Figure& figure) {
   for (const Figure::Panel& panel : figure.panels) {
     if (!panel.x_label.empty()) out += csv_note("x of panel '" + panel.label + "'", panel.x_label);
     if (!panel.y_label.empty()) out += csv_note("y of panel '" + panel.label + "'", panel.y_label);
+    for (const Figure::Span& span : panel.spans)
+      out += csv_note("span of panel '" + panel.label + "'",
+                      fmt::format("x from {} to {}{}{}: {}", span.from, span.to, span.kind.empty() ? "" : ", ",
+                                  span.kind, span.label));
+    for (const Figure::Mark& mark : panel.marks)
+      out += csv_note("mark of panel '" + panel.label + "'",
+                      fmt::format("{} = {}: {}", mark.vertical ? 'x' : 'y', mark.at, mark.label));
     for (const Figure::Series& series : panel.series) breaks = breaks || broken(series.curve);
   }
   if (breaks) out += "# nan: a line ends here; the next row begins a new one\n";
@@ -578,6 +826,13 @@ void check(const Figure& figure) {
   for (const Figure::Panel& panel : figure.panels) {
     if (panel.x_range) range((*panel.x_range)[0], (*panel.x_range)[1], "panel '" + panel.label + "', x");
     if (panel.y_range) range((*panel.y_range)[0], (*panel.y_range)[1], "panel '" + panel.label + "', y");
+    for (const Figure::Span& span : panel.spans)
+      if (!std::isfinite(span.from) || !std::isfinite(span.to) || !(span.from <= span.to))
+        refuse(fmt::format("panel '{}', span '{}': from {} to {} is no range", panel.label, span.label, span.from,
+                           span.to));
+    for (const Figure::Mark& mark : panel.marks)
+      if (!std::isfinite(mark.at))
+        refuse(fmt::format("panel '{}', mark '{}': {} is no place", panel.label, mark.label, mark.at));
     for (const Figure::Series& series : panel.series)
       if (series.curve.x.size() != series.curve.y.size())
         refuse(fmt::format("panel '{}', series '{}': {} x but {} y", panel.label, series.label, series.curve.x.size(),

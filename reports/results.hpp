@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "reports/choices_page.hpp"
+#include "reports/page.hpp"
 #include "reports/plate_results.hpp"
 #include "reports/vtu.hpp"
 
@@ -69,6 +69,13 @@ struct LedgerLine {
   double time, kinetic, strain, dissipated, viscous, contact, scheme, work, lost, momentum, impulse;
 };
 
+/// Stress and dilatancy at a place in the target of an impact, after each step.
+struct GaugeHistory {
+  std::string id;
+  double from_face = 0;                         ///< distance from the impact face [m]
+  std::vector<double> time, xx, yy, dilatancy;  ///< [s], [Pa]; V_d, empty without a failure wave
+};
+
 struct Run {
   std::string case_id;
   std::string method;  ///< "fem", "mpm-usf", "mpm-usl", "mpm-musl"
@@ -94,6 +101,7 @@ struct Run {
   /// Paths of ends and of points between, NaN between two paths: x the place, y the time (filled where a figure asks).
   Curve paths, exact_paths;
   std::vector<double> path_origins;  ///< of each point of both: where it started
+  std::vector<GaugeHistory> gauges;  ///< of a struck plate
   Curve platen;                      ///< of a plate: time [s], displacement of the platen along its normal [m]
   /// "mpm-musl N=200 C=0.5 ppc=1"; particles that are not evenly spaced add their positions, "ppc=1@0.3", and swept
   /// parameters theirs, "v0=0.1".
@@ -132,6 +140,8 @@ struct Gate {
 /// A figure to draw: stacked panels, one per time, with the exact solution under both methods; or a motion diagram.
 /// A point that holds NaN ends its line and the next point begins a new one: a curve may hold two bars with a gap
 /// between them, or the paths of many particles. Series are drawn in their order, the first lies lowest.
+/// Where some panel has spans or marks, the panels' labels stand above them. Those out of a panel's axes are named
+/// there.
 struct Figure {
   std::string id;  ///< "fig1": names the files
   std::string title;
@@ -144,14 +154,32 @@ struct Figure {
   bool motion = false;
   struct Series {
     std::string label;
-    std::string kind;  ///< "exact", "fem", "mpm"
+    /// "exact", "fem", "mpm"; "fem-thin", "mpm-thin": a second quantity or run of the same method, in its colour but
+    /// in thin dashes or with small crosses.
+    std::string kind;
     Curve curve;
+  };
+  /// A band from x = from to x = to, as a time window: shaded under all curves, with its label on a bar above the
+  /// panel. Kinds look different in their order of first mention; their names are written in the script and the data
+  /// alone.
+  struct Span {
+    double from = 0, to = 0;
+    std::string label;  ///< empty: none
+    std::string kind;
+  };
+  /// A thin dash-dotted line over all curves at one place, as a predicted arrival or plateau.
+  struct Mark {
+    double at = 0;
+    std::string label;     ///< empty: none
+    bool vertical = true;  ///< at x, else at y
   };
   struct Panel {
     std::string label;  ///< "t = 0.5 L/c: ..."
     std::vector<Series> series;
     std::optional<std::array<double, 2>> x_range = {}, y_range = {};  ///< from, to; none: the figure's
     std::string x_label = {}, y_label = {};                           ///< empty: the figure's
+    std::vector<Span> spans = {};
+    std::vector<Mark> marks = {};
   };
   std::vector<Panel> panels;
 };
@@ -165,7 +193,7 @@ struct Case {
   std::vector<Figure> figures;
   std::vector<PlateFigure> plate_figures;
   std::vector<ProblemFigure> problem_figures;
-  std::vector<std::pair<std::string, ChoicesPage>> pages;  ///< each with the name of its file, less ".html"
+  std::vector<std::pair<std::string, Page>> pages;  ///< each with the name of its file, less ".html"
 };
 
 /// What made the results.

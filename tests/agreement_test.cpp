@@ -461,4 +461,264 @@ BOOST_AUTO_TEST_CASE(an_order_in_time_needs_different_time_steps) {
   BOOST_TEST(over.judged().message.find("2 meshes, at least 4 are needed") != std::string::npos);
 }
 
+// ---- settling -------------------------------------------------------------------------------------------------------
+
+namespace {
+
+const char* const struck = R"toml(schema = 1
+id = "t"
+title = "t"
+claim = "cross-code"
+why = "w"
+units = "SI"
+[plate]
+width = 4.0
+rows = 1
+[material]
+model = "elastic"
+E = 1e4
+nu = 0.25
+rho = 1
+plane = "strain"
+[flyer]
+thickness = 2.0
+velocity = 1.0
+[supports]
+left = "free"
+right = "free"
+bottom = "roller"
+top = "roller"
+[model]
+features = ["elastic", "impact"]
+[axes]
+method = ["fem", "mpm-musl"]
+cells = [10, 20, 40, 80]
+courant = [0.3]
+[sample]
+times = { unit = "s", at = [0.01] }
+gauges = [{ id = "near", from_face = 0.5 }, { id = "far", from_face = 1.0 }]
+[[gate]]
+id = "settles"
+kind = "settling"
+quantity = "gauge.far.xx"
+max = 0.5
+reason = "r"
+)toml";
+
+/// Histories of one shape and of size 1 + error: their distance is that of their sizes. The error is h², with MPM half.
+struct Settling {
+  Case c = parse_case(struck, "t.toml");
+  std::vector<Run> runs;
+
+  Settling() {
+    for (const char* method : {"fem", "mpm-musl"}) {
+      const bool fem = std::string(method) == "fem";
+      for (const int cells : {10, 20, 40, 80}) {
+        Run run;
+        run.method = method;
+        run.cells = cells;
+        run.courant_asked = 0.3;
+        run.particles = fem ? "" : "0.25 0.75";
+        run.status = "completed";
+        const double h = 1.0 / cells;
+        // The other gauge and the other components settle to nothing.
+        run.gauges.push_back({"near", 0.5, {0, 1}, {1, 1}, {1, 1}, {1, 1}});
+        reports::GaugeHistory far{"far", 1.0, {}, {}, {}, {}};
+        for (int n = 0; n <= 20; ++n) {
+          far.time.push_back(0.1 * n);
+          far.xx.push_back(std::sin(0.1 * n) * size(fem, h));
+          far.yy.push_back(1);
+          far.dilatancy.push_back(1);
+        }
+        run.gauges.push_back(far);
+        runs.push_back(run);
+      }
+    }
+  }
+  static double size(bool fem, double h) { return 1 + (fem ? 1 : 0.5) * h * h; }
+
+  Run& run(const std::string& method, int cells) {
+    for (Run& one : runs)
+      if (one.method == method && one.cells == cells) return one;
+    throw std::logic_error("no such run");
+  }
+  std::vector<double>& xx(const std::string& method, int cells) { return run(method, cells).gauges.at(1).xx; }
+  void scale(const std::string& method, int cells, double by) {
+    for (double& value : xx(method, cells)) value *= by;
+  }
+  reports::Gate judged() { return judge(c, c.gates[0], runs); }
+  void invalid(const std::string& part) {
+    const auto result = judged();
+    BOOST_TEST((result.verdict == Verdict::invalid), "got " << to_string(result.verdict) << " for " << part);
+    BOOST_TEST(result.message.find(part) != std::string::npos, "wanted '" << part << "' in: " << result.message);
+  }
+};
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(histories_settle_where_their_distances_fall) {
+  Settling both;
+  const auto gate = both.judged();
+  BOOST_TEST((gate.verdict == Verdict::pass), gate.message);
+  // Of each method two ratios of three distances, between the methods three of four.
+  BOOST_REQUIRE_EQUAL(gate.checks.size(), 7u);
+  const auto distance = [](double a, double b) { return std::abs(a / b - 1); };
+  for (std::size_t k = 0; k < 2; ++k) {
+    const double h = k == 0 ? 0.1 : 0.05;
+    for (const bool fem : {true, false}) {
+      const auto& check = gate.checks[fem ? k : 2 + k];
+      const auto at = [&](double size) { return Settling::size(fem, size); };
+      const double before = distance(at(h), at(h / 2)), after = distance(at(h / 2), at(h / 4));
+      BOOST_TEST(check.predicted.value() == before, tt::tolerance(1e-6));
+      BOOST_TEST(check.value == after, tt::tolerance(1e-6));
+      BOOST_TEST(check.judged == after / before, tt::tolerance(1e-6));  // about a quarter
+      BOOST_TEST((check.low == 0 && check.high == 0.5));
+    }
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double h = k == 0 ? 0.1 : k == 1 ? 0.05 : 0.025;
+    const auto apart = [&](double size) { return distance(Settling::size(false, size), Settling::size(true, size)); };
+    BOOST_TEST(gate.checks[4 + k].predicted.value() == apart(h), tt::tolerance(1e-6));
+    BOOST_TEST(gate.checks[4 + k].value == apart(h / 2), tt::tolerance(1e-6));
+  }
+  both.c.gates[0].max = 0.2;  // more than second order
+  BOOST_TEST((both.judged().verdict == Verdict::fail));
+  BOOST_TEST(gate.formula.find("between the methods") != std::string::npos, gate.formula);
+
+  std::reverse(both.runs.begin(), both.runs.end());
+  both.c.gates[0].max = 0.5;
+  const auto reversed = both.judged();
+  BOOST_REQUIRE_EQUAL(reversed.checks.size(), 7u);
+  for (std::size_t k = 0; k < 7; ++k) BOOST_TEST(reversed.checks[k].judged == gate.checks[k].judged);
+}
+
+BOOST_AUTO_TEST_CASE(one_distance_that_does_not_fall_fails) {
+  for (const char* method : {"fem", "mpm-musl"}) {
+    for (const int cells : {20, 40, 80}) {
+      Settling other;
+      other.scale(method, cells, 1.1);
+      BOOST_TEST((other.judged().verdict == Verdict::fail), method << ", " << cells);
+    }
+  }
+  // Each settles, but to something else: alone either passes.
+  Settling other;
+  for (const int cells : {10, 20, 40, 80}) other.scale("mpm-musl", cells, 1.1);
+  BOOST_TEST((other.judged().verdict == Verdict::fail));
+  BOOST_TEST(other.judged().message.find("fem and mpm-musl") != std::string::npos, other.judged().message);
+  for (const char* method : {"fem", "mpm-musl"}) {
+    other.c.gates[0].where.method = {method};
+    BOOST_TEST((other.judged().verdict == Verdict::pass), other.judged().message);
+    BOOST_TEST(other.judged().checks.size() == 2u);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(settling_needs_four_meshes_of_one_or_two_methods) {
+  Settling few;
+  few.c.gates[0].where.cells = {20, 40, 80};
+  few.invalid("3 meshes, at least 4 are needed");
+  few.c.gates[0].where.method = {"fem"};
+  few.invalid("3 meshes, at least 4 are needed");
+  few.c.gates[0].where.method = {"mpm-usl"};
+  few.invalid("0 methods");
+  Settling three;
+  three.c.axes[0].method.push_back("mpm-usf");
+  for (const int cells : {10, 20, 40, 80}) {
+    three.runs.push_back(three.run("mpm-musl", cells));
+    three.runs.back().method = "mpm-usf";
+  }
+  three.invalid("3 methods");
+  Settling unlike;
+  std::erase_if(unlike.runs, [](const Run& run) { return run.method == "fem" && run.cells == 10; });
+  unlike.invalid("not run on the same meshes");
+  Settling none;
+  none.runs.clear();
+  none.invalid("0 methods");
+  // Twice on one mesh, with other particles: of one method as of two.
+  Settling twice;
+  twice.c.axes[0].particles = {{0.25, 0.75}, {0.5}};
+  twice.c.gates[0].where.method = {"mpm-musl"};
+  twice.runs.push_back(twice.run("mpm-musl", 40));
+  twice.runs.back().particles = "0.5";
+  for (double& value : twice.runs.back().gauges.at(1).xx) value *= 1.0001;
+  twice.invalid("two runs of a method on one mesh");
+}
+
+BOOST_AUTO_TEST_CASE(the_same_history_twice_never_settles) {
+  for (const char* method : {"fem", "mpm-musl"}) {
+    for (const int cells : {10, 20, 40}) {
+      Settling other;
+      other.xx(method, cells) = other.xx(method, 2 * cells);
+      BOOST_TEST((other.judged().verdict != Verdict::pass));
+      other.c.gates[0].where.method = {method};
+      other.invalid("the same");
+    }
+  }
+  for (const int cells : {10, 20, 40, 80}) {
+    Settling other;
+    other.c.gates[0].max = 1e9;  // whatever the distances do beside it
+    other.xx("fem", cells) = other.xx("mpm-musl", cells);
+    other.invalid("the same");
+  }
+}
+
+BOOST_AUTO_TEST_CASE(settling_of_what_is_no_number_or_not_there_is_invalid) {
+  for (const char* method : {"fem", "mpm-musl"}) {
+    for (const int cells : {10, 20, 40, 80}) {
+      for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+        Settling other;
+        other.xx(method, cells)[7] = bad;
+        other.invalid("not a finite number");
+      }
+      Settling gone;
+      gone.run(method, cells).gauges.pop_back();
+      gone.invalid("has no gauge.far.xx");
+    }
+  }
+  Settling nothing;  // a history that vanishes has no size to compare with
+  std::fill(nothing.xx("fem", 80).begin(), nothing.xx("fem", 80).end(), 0.0);
+  BOOST_TEST((nothing.judged().verdict == Verdict::invalid));
+  Settling broken;
+  broken.run("fem", 40).status = "unstable";
+  BOOST_TEST((broken.judged().verdict == Verdict::unstable));
+  broken.run("fem", 40).status = "completed";
+  broken.run("fem", 40).invalid = "why not";
+  broken.invalid("why not");
+}
+
+BOOST_AUTO_TEST_CASE(each_history_of_a_gauge_is_its_own) {
+  for (const char* quantity : {"gauge.far.yy", "gauge.far.dilatancy", "gauge.near.xx"}) {
+    Settling other;
+    other.c.gates[0].quantity = quantity;
+    other.invalid("the same");
+  }
+  Settling lateral;
+  lateral.c.gates[0].quantity = "gauge.far.yy";
+  for (Run& run : lateral.runs) std::swap(run.gauges[1].xx, run.gauges[1].yy);
+  BOOST_TEST((lateral.judged().verdict == Verdict::pass));
+  lateral.c.gates[0].quantity = "gauge.far.dilatancy";
+  for (Run& run : lateral.runs) std::swap(run.gauges[1].dilatancy, run.gauges[1].yy);
+  BOOST_TEST((lateral.judged().verdict == Verdict::pass));
+}
+
+// Gates of kind agreement know histories of gauges, too.
+BOOST_AUTO_TEST_CASE(histories_of_gauges_agree_as_those_of_a_platen_do) {
+  Settling both;
+  GateSpec& gate = both.c.gates[0];
+  gate.kind = "agreement";
+  gate.max = 1;
+  gate.judged = {20, 40, 80};
+  const auto result = both.judged();
+  BOOST_TEST((result.verdict == Verdict::pass), result.message);
+  BOOST_REQUIRE_EQUAL(result.checks.size(), 4u);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double h = k == 0 ? 0.05 : k == 1 ? 0.025 : 0.0125;
+    BOOST_TEST(result.checks[k].value == std::abs(Settling::size(false, h) / Settling::size(true, h) - 1),
+               tt::tolerance(1e-6));
+  }
+  for (const int cells : {10, 20, 40, 80}) both.scale("mpm-musl", cells, 1.1);
+  BOOST_TEST((both.judged().verdict == Verdict::fail));
+  both.run("fem", 40).gauges.clear();
+  both.invalid("has no gauge.far.xx");
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -81,6 +81,23 @@ double decay(const Grid& g, int m, int n, double d) {
   return 4 * d * (sx * sx / (g.hx * g.hx) + sy * sy / (g.hy * g.hy));
 }
 
+/// What a step leaves of a mode of which the operator takes z in it; of a step of ten limits of forward Euler where the
+/// scheme has parts or stages.
+double factor(Scheme scheme, double z) {
+  switch (scheme) {
+    case Scheme::forward_euler: return 1 - z;
+    case Scheme::sub_cycled: return std::pow(1 - z / 10, 10);
+    case Scheme::rkl2: {  // (s² + s − 2)/4 ≥ 10 asks for 7 stages; R = 1 − b + b P₇(1 − w z)
+      const double b = 54.0 / 112, w = 4.0 / 54;
+      const double x = 1 - w * z, p = std::legendre(7, std::clamp(x, -1.0, 1.0));
+      return 1 - b + b * p;
+    }
+    case Scheme::backward_euler: return 1 / (1 + z);
+    case Scheme::crank_nicolson: break;
+  }
+  return (1 - z / 2) / (1 + z / 2);
+}
+
 double largest_difference(std::span<const double> a, std::span<const double> b) {
   double largest = 0;
   for (std::size_t k = 0; k < a.size(); ++k) {
@@ -231,26 +248,13 @@ BOOST_AUTO_TEST_CASE(a_cosine_mode_shrinks_by_its_factor) {
       const double dt = forward_euler_limit(g, d) * (scheme == Scheme::forward_euler ? 1 : 10);
       for (const auto& [m, n] : {std::pair{0, 0}, {1, 0}, {0, 1}, {g.nx, g.ny}, {g.nx / 2, g.ny - 1}}) {
         const double z = dt * decay(g, m, n, d);
-        const auto factor = [&] {
-          switch (scheme) {
-            case Scheme::forward_euler: return 1 - z;
-            case Scheme::sub_cycled: return std::pow(1 - z / 10, 10);
-            case Scheme::rkl2: {  // (s² + s − 2)/4 ≥ 10 asks for 7 stages; R = 1 − b + b P₇(1 − w z)
-              const double b = 54.0 / 112, w = 4.0 / 54;
-              const double x = 1 - w * z, p = std::legendre(7, std::clamp(x, -1.0, 1.0));
-              return 1 - b + b * p;
-            }
-            case Scheme::backward_euler: return 1 / (1 + z);
-            case Scheme::crank_nicolson: break;
-          }
-          return (1 - z / 2) / (1 + z / 2);
-        }();
+        const double f = factor(scheme, z);
         Concentration c(g, scheme);
         const auto mode = cosine_mode(g, m, n);
         set(c, mode);
         c.step(std::vector<double>(g.cells(), d), std::vector<double>(g.nodes(), 0), dt);
         BOOST_TEST_CONTEXT(name(scheme) << ", mode " << m << ", " << n << " of " << g.nx << " x " << g.ny) {
-          for (std::size_t k = 0; k < g.nodes(); ++k) BOOST_TEST(std::abs(c.values()[k] - factor * mode[k]) < 2e-14);
+          for (std::size_t k = 0; k < g.nodes(); ++k) BOOST_TEST(std::abs(c.values()[k] - f * mode[k]) < 2e-14);
         }
       }
     }
@@ -515,6 +519,240 @@ BOOST_AUTO_TEST_CASE(all_schemes_meet_as_the_step_shrinks) {
       BOOST_TEST(std::log2(once / twice) == (allowed < 1e-5 ? 2 : 1), tt::tolerance(0.15));
     }
   }
+}
+
+// x = 0 is held at a value of its own and the right end is a wall: quarter waves of the sine are eigenvectors.
+BOOST_AUTO_TEST_CASE(a_mode_beside_a_held_side_shrinks_by_its_factor) {
+  for (const Grid& g : {Grid{6, 9, 0.2, 0.2}, Grid{5, 3, 0.2, 0.7}, Grid{1, 1, 1, 1}, Grid{40, 1, 0.1, 0.1}}) {
+    std::vector<std::size_t> side;
+    for (int j = 0; j <= g.ny; ++j) side.push_back(static_cast<std::size_t>(j * (g.nx + 1)));
+    const double d = 2.5, h = 0.7;
+    for (const Scheme scheme : every_scheme) {
+      const double dt = forward_euler_limit(g, d) * (scheme == Scheme::forward_euler ? 1 : 10);
+      for (const auto& [m, n] : {std::pair{0, 0}, {0, 1}, {g.nx - 1, g.ny}, {g.nx / 2, g.ny - 1}}) {
+        const auto mode = at_nodes(g, [&, m = m, n = n](double x, double y) {
+          return std::sin((m + 0.5) * pi * x / (g.nx * g.hx)) * std::cos(n * pi * y / (g.ny * g.hy));
+        });
+        const double sx = std::sin((m + 0.5) * pi / (2 * g.nx)), sy = std::sin(n * pi / (2 * g.ny));
+        const double f = factor(scheme, dt * 4 * d * (sx * sx / (g.hx * g.hx) + sy * sy / (g.hy * g.hy)));
+        Concentration c(g, scheme);
+        auto start = mode;
+        for (double& v : start) v += h;
+        set(c, start);
+        c.hold(side);
+        c.step(std::vector<double>(g.cells(), d), std::vector<double>(g.nodes(), 0), dt);
+        BOOST_TEST_CONTEXT(name(scheme) << ", mode " << m << ", " << n << " of " << g.nx << " x " << g.ny) {
+          for (std::size_t k = 0; k < g.nodes(); ++k) BOOST_TEST(std::abs(c.values()[k] - h - f * mode[k]) < 4e-14);
+        }
+      }
+    }
+  }
+}
+
+// Any set of held nodes, any diffusivity: the operator is asked of a forward Euler that holds nothing, which gives
+// z u = dt L u, held nodes left out; every scheme is a polynomial or an equation in z.
+BOOST_AUTO_TEST_CASE(beside_held_nodes_a_step_is_that_of_the_operator) {
+  const Grid g{7, 6, 0.3, 0.2};
+  const std::vector<double> none(g.nodes(), 0);
+  const std::vector<std::size_t> held{0, 20, 21, 29, 37, 38, 40, 55};  // two corners, pairs side by side and above
+  const auto d = random_values(g.cells(), 21), before = random_values(g.nodes(), 22);
+  for (const Reading reading : {Reading::isotropic, Reading::radial}) {
+    const double small = (reading == Reading::radial ? 0.6 : 1) * forward_euler_limit(g, 1), ratio = 2.4;
+    const auto z = [&](const std::vector<double>& u) {
+      Concentration c(g, Scheme::forward_euler, reading);
+      set(c, u);
+      c.step(d, none, small);
+      std::vector<double> out(g.nodes(), 0);
+      for (std::size_t k = 0; k < out.size(); ++k) {
+        if (!std::ranges::binary_search(held, k)) out[k] = ratio * (c.values()[k] - u[k]);
+      }
+      return out;
+    };
+    const auto plus = [](std::vector<double> a, double factor, const std::vector<double>& b) {
+      for (std::size_t k = 0; k < a.size(); ++k) a[k] += factor * b[k];
+      return a;
+    };
+    const auto after = [&](Scheme scheme, double dt) {
+      Concentration c(g, scheme, reading);
+      set(c, before);
+      c.hold(held);
+      c.step(d, none, dt);
+      return get(c);
+    };
+    const double step = ratio * small;
+    BOOST_TEST_CONTEXT((reading == Reading::radial ? "radial" : "isotropic")) {
+      BOOST_TEST(largest_difference(after(Scheme::forward_euler, small), plus(before, 1 / ratio, z(before))) < 1e-15);
+      Concentration parts(g, Scheme::sub_cycled, reading);  // as many as it takes, then those by hand
+      set(parts, before);
+      parts.hold(held);
+      parts.step(d, none, step);
+      const double count = static_cast<double>(parts.node_updates()) / static_cast<double>(g.nodes());
+      auto by_hand = before;
+      for (int i = 0; i < count; ++i) by_hand = plus(by_hand, 1 / count, z(by_hand));
+      BOOST_TEST(count > 1);
+      BOOST_TEST(largest_difference(get(parts), by_hand) < 2e-15);
+      // three stages: R = 1 − b + b P₃(1 + w z)
+      const double b = 10.0 / 24, w = 4.0 / 10;
+      const auto m = [&](const std::vector<double>& u) { return plus(u, w, z(u)); };
+      const auto once = m(before), p = plus(plus(before, -1, before), 2.5, m(m(once)));
+      const auto stages = plus(plus(before, -b, before), b, plus(p, -1.5, once));
+      BOOST_TEST(largest_difference(after(Scheme::rkl2, step), stages) < 1e-14);
+      const auto backward = after(Scheme::backward_euler, step), middle = after(Scheme::crank_nicolson, step);
+      BOOST_TEST(largest_difference(backward, plus(before, 1, z(backward))) < 2e-15);
+      BOOST_TEST(largest_difference(middle, plus(plus(before, 0.5, z(before)), 0.5, z(middle))) < 2e-15);
+    }
+  }
+}
+
+// Fluxes out of the held nodes against what the others have gained; what the caller changes is the caller's.
+BOOST_AUTO_TEST_CASE(held_nodes_feed_what_flows_out_of_them) {
+  for (const Reading reading : {Reading::isotropic, Reading::radial}) {
+    for (const Grid& g : {Grid{7, 5, 0.1, 0.1}, Grid{1, 1, 2, 3}, Grid{40, 1, 0.1, 0.1}, Grid{9, 4, 1e-2, 1}}) {
+      for (const auto& [scheme, drift] : {std::pair{Scheme::forward_euler, 0.0},
+                                          {Scheme::sub_cycled, 0.0},
+                                          {Scheme::rkl2, 0.0},
+                                          {Scheme::backward_euler, 0.0},
+                                          {Scheme::backward_euler, 0.2},
+                                          {Scheme::crank_nicolson, 0.0}}) {
+        Concentration c(g, scheme, reading, drift);
+        set(c, random_values(g.nodes(), 4));
+        const double dt = (scheme == Scheme::forward_euler ? 0.2 : 10) * forward_euler_limit(g, 3);
+        const auto s = random_values(g.nodes(), 5, -1 / dt, 2 / dt);
+        const std::vector<std::size_t> held{0, g.nodes() / 2, g.nodes() / 2 + 1};
+        c.hold(held);
+        double own = c.total(), size = own;
+        for (unsigned n = 0; n < 50; ++n) {
+          const double before = c.total();
+          const auto given = random_values(held.size(), 100 + n, 0, 5);
+          for (std::size_t i = 0; i < held.size(); ++i) c.values()[held[i]] = given[i];
+          own += c.total() - before;
+          const double fed = c.fed(), drawn = c.drawn();
+          c.step(random_values(g.cells(), 10 + n, 2.8, 3), s, dt);
+          size += std::abs(c.fed() - fed) + std::abs(c.drawn() - drawn);
+          for (std::size_t i = 0; i < held.size(); ++i) BOOST_TEST(c.values()[held[i]] == given[i]);
+        }
+        BOOST_TEST_CONTEXT(name(scheme) << ", drift " << drift << ", " << g.nx << " x " << g.ny) {
+          BOOST_TEST(std::abs(c.total() - own - c.fed()) < 3e-14 * size);
+          BOOST_TEST(std::abs(c.drawn()) > 1e-3 * size);
+          if (drift > 0) BOOST_TEST(c.factorisations() == 1);
+        }
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(held_nodes_bound_the_others) {
+  const Grid g{10, 10, 0.1, 0.1};
+  const std::vector<double> none(g.nodes(), 0);
+  std::vector<std::size_t> held{12, 13, 60, 120};
+  for (const Scheme scheme : {Scheme::forward_euler, Scheme::sub_cycled, Scheme::backward_euler}) {
+    Concentration c(g, scheme);
+    set(c, std::vector<double>(g.nodes(), 0.5));
+    c.hold(held);
+    c.values()[12] = 1;
+    c.values()[60] = 0;
+    const double dt = (scheme == Scheme::forward_euler ? 1 : 9) * forward_euler_limit(g, 2);
+    for (unsigned n = 0; n < 200; ++n) {
+      auto d = random_values(g.cells(), n, 0, 2);
+      d[n % 100] = 2;
+      c.step(d, none, dt);
+      const auto [low, high] = std::ranges::minmax(c.values());
+      BOOST_TEST((low == 0 && high == 1));
+    }
+    BOOST_TEST(c.values()[1] > 0.6);
+    BOOST_TEST(c.values()[61] < 0.4);
+  }
+}
+
+// Columns of cells without diffusivity cut the grid in two. The left part is held by its side and takes its value as
+// the step grows; the right one, which conducts less, keeps its content, and so does an island of one slow cell in
+// between; nodes that are cut off keep their bits.
+BOOST_DATA_TEST_CASE(implicit_steps_of_any_length_beside_held_nodes,
+                     bdata::make({1e2, 1e4, 1e7, 1e8, 1e12, 1e15, 1e18, 1e30}), ratio) {
+  for (const Scheme scheme : {Scheme::backward_euler, Scheme::crank_nicolson}) {
+    const Grid g{24, 30, 0.05, 0.05};
+    Concentration c(g, scheme);
+    auto d = random_values(g.cells(), 7, 0.5, 1);
+    for (std::size_t cell = 0; cell < d.size(); ++cell) {
+      if (cell % 24 > 12) d[cell] /= 2;
+      if ((cell % 24 >= 10 && cell % 24 <= 12) || cell == 23) d[cell] = 0;
+    }
+    d[24 * 5 + 11] = 1 / ratio;
+    std::vector<std::size_t> side;
+    for (std::size_t j = 0; j <= 30; ++j) side.push_back(25 * j);
+    c.hold(side);
+    const auto start = random_values(g.nodes(), 6, 0, 2), v = volumes(g);
+    set(c, start);
+    for (const std::size_t k : side) c.values()[k] = 3;
+    const double dt = ratio * 0.05 * 0.05;
+    std::vector<double> s(g.nodes(), 0);
+    s[100] = 7;                      // is held
+    s[25 * 4 + 3] = 1 / dt;          // flows out at the side
+    s[25 * 2 + 20] = 4 / (dt * 25);  // adds 4/25 h² to the right part at each step
+    const auto is_island = [](std::size_t k) { return (k % 25 == 11 || k % 25 == 12) && (k / 25 == 5 || k / 25 == 6); };
+    const auto content = [&](auto of) {
+      double sum = 0;
+      for (std::size_t k = 0; k < g.nodes(); ++k) {
+        if (of(k)) sum += v[k] * c.values()[k];
+      }
+      return sum;
+    };
+    const auto is_right = [](std::size_t k) { return k % 25 > 12; };
+    const double right = content(is_right), island = content(is_island);
+    const double shared =
+        ratio > 1e8 ? 1e-13 : 1e-13 + 1e-16 * ratio;  // up to there round-off comes back evenly to both
+    BOOST_TEST_CONTEXT(name(scheme)) {
+      for (int n = 1; n <= 10; ++n) {
+        c.step(d, s, dt);
+        BOOST_TEST(content(is_right) == right + n * 4e-4, tt::tolerance(shared));
+        BOOST_TEST(content(is_island) == island, tt::tolerance(shared));
+        for (std::size_t k = 0; k < g.nodes(); ++k) {
+          if (k % 25 == 0) BOOST_TEST(c.values()[k] == 3);
+          if (((k % 25 == 11 || k % 25 == 12) && !is_island(k)) || k == 24) BOOST_TEST(c.values()[k] == start[k]);
+          if (k % 25 < 11 && scheme == Scheme::backward_euler)
+            BOOST_TEST(std::abs(c.values()[k] - 3) < 1e-12 + 1e3 / ratio);
+        }
+      }
+    }
+  }
+}
+
+// Also how a factor is kept or not: what is loose hangs on the cells that conduct.
+BOOST_AUTO_TEST_CASE(a_hold_can_be_changed_and_ended) {
+  const Grid g{6, 6, 0.1, 0.1};
+  const std::vector<double> none(g.nodes(), 0);
+  const auto d = random_values(g.cells(), 12, 0.5, 1);
+  for (const Scheme scheme : every_scheme) {
+    const double dt = (scheme == Scheme::forward_euler ? 0.9 : 7) * forward_euler_limit(g, 1);
+    Concentration changed(g, scheme), fresh(g, scheme), never(g, scheme);
+    set(changed, random_values(g.nodes(), 13));
+    const double begin = changed.total();
+    for (const std::size_t node : {24U, 3U}) {
+      changed.hold({40, node, 40, 17, node});
+      changed.step(d, none, dt);
+    }
+    BOOST_TEST(std::abs(changed.total() - begin - changed.drawn()) < 1e-14);
+    set(fresh, get(changed));
+    fresh.hold({3, 17, 40});
+    changed.step(d, none, dt);
+    fresh.step(d, none, dt);
+    BOOST_TEST(get(changed) == get(fresh), tt::per_element());
+    set(never, get(changed));
+    changed.hold({});
+    changed.step(d, none, dt);
+    never.step(d, none, dt);
+    BOOST_TEST(get(changed) == get(never), tt::per_element());
+    BOOST_TEST(never.drawn() == 0);
+    BOOST_CHECK_THROW(changed.hold({3, g.nodes()}), std::invalid_argument);
+  }
+  Concentration kept(g, Scheme::backward_euler, Reading::isotropic, 0.5);
+  kept.hold({0});
+  for (const double least : {1e-3, 2e-3, 0.0, 1e-3}) {
+    auto open = d;
+    open[20] = least;
+    kept.step(open, none, 0.1);
+  }
+  BOOST_TEST(kept.factorisations() == 3);
 }
 
 BOOST_AUTO_TEST_CASE(factors_are_kept_while_they_serve) {

@@ -188,6 +188,77 @@ std::vector<Curve> lines_in(const std::string& svg, const std::string& colour) {
   std::erase_if(lines, [](const Curve& c) { return c.x.size() == 2 && c.y[0] == c.y[1] && c.x[1] - c.x[0] < 36; });
   return lines;
 }
+/// The script's part for one panel, up to its data.
+std::string panel_of(const std::string& script, int panel) {
+  const std::size_t from = script.find("# Panel " + std::to_string(panel) + "\n");
+  const std::size_t next = script.find("# Panel ", from + 1), plot = script.find("\nplot ", from);
+  const std::size_t end = script.find("\nunset label", plot), stop = std::min(next, script.find("\n\n", end));
+  return script.substr(from, plot + 6 - from) + script.substr(end, stop + 1 - end);
+}
+
+double number_after(const std::string& text, const std::string& words) {
+  const std::size_t at = text.find(words);
+  return at == std::string::npos ? nan_value : std::stod(text.substr(at + words.size()));
+}
+
+/// Words that the script puts on the page, where (shares of the page) and whether they end there.
+struct Label {
+  std::string text;
+  double x = 0, y = 0;
+  bool right = false;
+};
+std::vector<Label> labels_in(const std::string& script) {
+  std::vector<Label> all;
+  std::istringstream in(script);
+  for (std::string line; std::getline(in, line);) {
+    const std::size_t at = line.find("' at screen ");
+    if (!line.starts_with("set label '") || at == std::string::npos || at == 11) continue;
+    Label label{line.substr(11, at - 11), 0, 0, line.find(" right ", at) != std::string::npos};
+    char comma = 0;
+    std::istringstream(line.substr(at + 12)) >> label.x >> comma >> label.y;
+    all.push_back(label);
+  }
+  return all;
+}
+
+/// Ends of upright lines that leave a panel, and of bars: x as on the axis, y as a share of the page.
+struct Arrow {
+  double x = 0, y = 0;
+  bool upright = false;
+};
+std::vector<Arrow> arrows_in(const std::string& script) {
+  std::vector<Arrow> all;
+  std::istringstream in(script);
+  for (std::string line; std::getline(in, line);) {
+    if (!line.starts_with("set arrow from ") || line.find("screen") == std::string::npos) continue;
+    const std::size_t to = line.find(" to "), screen = line.find("screen ", to);
+    all.push_back({std::stod(line.substr(to + 4)), std::stod(line.substr(screen + 7)),
+                   line.find(",graph 1 to ") != std::string::npos});
+  }
+  return all;
+}
+
+/// Two stacked histories; the first has time windows, of which two overlap and one leaves the panel, and predictions.
+Figure histories() {
+  Figure figure = example(2);
+  figure.id = "fig5";
+  figure.x_max = 7;
+  figure.y_max = 5;
+  figure.panels[0].label = "longitudinal";
+  figure.panels[1].label = "lateral";
+  for (Figure::Panel& panel : figure.panels)
+    for (Figure::Series& series : panel.series) {
+      series.curve = {};
+      for (int i = 0; i < 70; ++i) add(series.curve, 0.1 * i, i < 9 || i > 49 ? 0 : 4.25);
+    }
+  figure.panels[0].spans = {{1.1, 2.3, "window 1: behind the shock", "intact"},
+                            {2.8, 4.6, "window 2: behind the failure wave", "failed"},
+                            {4.3, 5.4, "window 3", "release"},
+                            {5.6, 7.5, "window 4", "intact"}};
+  figure.panels[0].marks = {{0.9, "shock", true}, {2.6, "failure wave", true}, {4.25, "plateau", false}};
+  return figure;
+}
+
 const std::string fem_colour = "rgb(  8,  48, 107)", exact_colour = "rgb(198, 198, 198)";
 
 }  // namespace
@@ -421,13 +492,231 @@ BOOST_AUTO_TEST_CASE(a_plain_figure_has_nothing_of_motion_diagrams) {
   const Folder folder;
   drawn(example(3, 500), folder.path);
   const std::string script = contents(folder.path / "fig1.gp");
-  for (const char* command : {"set clip", "object", "nan"}) BOOST_TEST(!has(script, command), command);
+  for (const char* command : {"set clip", "object", "nan", "graph", "style line 109", "style line 110"})
+    BOOST_TEST(!has(script, command), command);
   BOOST_TEST(script.find("set xrange") == script.rfind("set xrange"));
   BOOST_TEST(has(script, "set format x ''"));
   const std::vector<Drawing> all = drawings(script, 1);
   BOOST_TEST_REQUIRE(all.size() == 3U);
   BOOST_TEST(all[2].style == "linespoints ls 3");
   BOOST_TEST(!has(contents(folder.path / "fig1.csv"), "nan"));
+}
+
+BOOST_AUTO_TEST_CASE(spans_and_marks_stand_at_their_numbers) {
+  const Folder folder;
+  const bool picture = drawn(histories(), folder.path);
+  const std::string script = contents(folder.path / "fig5.gp");
+  BOOST_TEST(has(script, "set xrange [0:7]; set yrange [-1:5]\n"));  // no label lifts the axis
+  const std::string first = panel_of(script, 1), second = panel_of(script, 2);
+  for (const std::string range : {"1.1,graph 0 to 2.3", "2.8,graph 0 to 4.6", "4.3,graph 0 to 5.4", "5.6,graph 0 to 7"})
+    BOOST_TEST(has(first, "set object rectangle from " + range + ",graph 1 behind "), range);
+  for (const std::string x : {"1.1", "2.3", "2.8", "4.6", "4.3", "5.4", "5.6"})  // not where the panel cuts one
+    BOOST_TEST(has(first, "set arrow from " + x + ",graph 0 to " + x + ",graph 1 nohead back ls 11"), x);
+  BOOST_TEST(!has(first, "set arrow from 7,"));
+  BOOST_TEST(has(first, "set arrow from 0.9,graph 0 to 0.9,graph 1 nohead front ls 109\n"));
+  BOOST_TEST(has(first, "set arrow from 2.6,graph 0 to 2.6,graph 1 nohead front ls 109\n"));
+  BOOST_TEST(has(first, "set arrow from graph 0,first 4.25 to graph 1,first 4.25 nohead front ls 109\n"));
+  BOOST_TEST(first.find("behind") < first.find("\nplot "));
+  BOOST_TEST(has(first, "unset label; unset object; unset arrow\n"));
+  for (const std::string word : {"object", "arrow"})
+    BOOST_TEST(!has(second, word), word);  // they are the first's alone
+  // Told apart by dashes: one look for each kind, also of its bar, and one for marks.
+  for (const std::string look : {"110 lw 1.1 lc rgb '#1f5f8b'  # edges of spans of kind 'intact'",
+                                 "111 lw 1.1 lc rgb '#8a5a00' dt (9,4)  # edges of spans of kind 'failed'",
+                                 "112 lw 1.1 lc rgb '#00604a' dt (2,3)  # edges of spans of kind 'release'",
+                                 "109 lw 0.9 lc rgb '#333333' dt (10,3,2,3)  # marks"})
+    BOOST_TEST(has(script, "set style line " + look + "\n"), look);
+  BOOST_TEST(!has(script, "set style line 113 "));
+  for (const auto& [x, ls] : {std::pair{"1.1", "110"}, {"2.8", "111"}, {"4.3", "112"}, {"5.6", "110"}}) {
+    const std::size_t edge = first.find(std::string("set arrow from ") + x + ",graph 0");
+    BOOST_TEST(first.substr(edge, first.find('\n', edge) - edge).ends_with(std::string(" ls ") + ls), x);
+    const std::size_t bar = first.find(std::string("set arrow from ") + x + ",screen");
+    BOOST_TEST_REQUIRE(bar != std::string::npos, x);
+    BOOST_TEST(first.substr(bar, first.find('\n', bar) - bar).ends_with(std::string(",90 front ls ") + ls), x);
+  }
+  if (!picture) return;
+  // 88 px to 876 px show 0 to 7: the first band goes from 211.8 px to 346.9 px, under the curves.
+  const std::string svg = contents(folder.path / "fig5.svg");
+  const std::string colour = "rgb( 86, 180, 233)";
+  const std::size_t shade = svg.find("<polygon fill = '" + colour), last = svg.rfind("<polygon fill = '" + colour);
+  BOOST_TEST_REQUIRE(shade != std::string::npos);
+  std::istringstream in(svg.substr(svg.find("points = '", shade) + 10, 60));
+  double x = 0;
+  in >> x;
+  BOOST_TEST(std::abs(x - 211.8) < 0.2);
+  BOOST_TEST(shade != last);
+  BOOST_TEST(lines_in(svg.substr(last), fem_colour).size() == 2U);  // drawn later: of this panel and of the next
+}
+
+BOOST_AUTO_TEST_CASE(labels_of_spans_and_marks_do_not_overlap) {
+  const Folder folder;
+  Figure figure = histories();
+  figure.panels[0].spans.push_back({0, 0.4, "start", "intact"});  // under the panel's own label
+  figure.panels[1].spans = figure.panels[0].spans;
+  figure.panels[1].marks = figure.panels[0].marks;
+  for (const double x : {0.95, 1.0, 6.7, 6.9})  // some so near to the right side that their words stand to the left
+    figure.panels[0].marks.push_back({x, "arrival of a wave at " + std::to_string(x), true});
+  drawn(figure, folder.path);
+  const std::string script = contents(folder.path / "fig5.gp");
+  const double height = number_after(script, "rounded size 900,");
+  for (const int panel : {1, 2}) {
+    const std::string text = panel_of(script, panel);
+    const double top = (1 - number_after(text, "set tmargin at screen ")) * height;
+    struct Words {
+      double low, high, middle;
+    };
+    std::vector<Words> all;
+    for (const Label& label : labels_in(text)) {
+      if (label.text == figure.y_label || label.text == figure.x_label) continue;
+      const double x = 900 * label.x, w = 6.0 * static_cast<double>(label.text.size());  // at most: they are ASCII
+      all.push_back({label.right ? x - w : x, label.right ? x : x + w, (1 - label.y) * height});
+      BOOST_TEST(all.back().low >= 88, label.text);
+      BOOST_TEST(all.back().high <= 878, label.text);
+      BOOST_TEST((all.back().middle < top || label.text == "plateau"), label.text);  // above what curves may reach
+    }
+    BOOST_TEST(all.size() == (panel == 1 ? 13U : 9U));
+    for (std::size_t i = 0; i < all.size(); ++i)
+      for (std::size_t k = 0; k < i; ++k)
+        BOOST_TEST(
+            (all[i].high <= all[k].low || all[k].high <= all[i].low || std::abs(all[i].middle - all[k].middle) >= 13));
+    // The line of a mark goes on up to its own label, through no other's.
+    for (const Arrow& arrow : arrows_in(text)) {
+      if (!arrow.upright) continue;
+      const double x = 88 + arrow.x / 7 * 788, end = (1 - arrow.y) * height;
+      for (const Words& words : all) BOOST_TEST((x <= words.low || x >= words.high || words.middle <= end), arrow.x);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_label_of_a_plateau_avoids_curves) {
+  const Folder folder;
+  Figure figure = histories();
+  figure.panels[0].spans.clear();
+  figure.panels[0].marks = {{4.25, "plateau", false}};
+  const auto place = [&] {
+    drawn(figure, folder.path);
+    for (const Label& label : labels_in(panel_of(contents(folder.path / "fig5.gp"), 1)))
+      if (label.text == "plateau") return label.x;
+    return nan_value;
+  };
+  BOOST_TEST(std::abs(900 * place() - (876 - 6 - 7 * 6.2)) < 0.1);  // the curve is at 0 there
+  for (Figure::Series& series : figure.panels[0].series) {          // now it is at 4.25 from 0.9 to the end
+    for (std::size_t i = 0; i < series.curve.x.size(); ++i) series.curve.y[i] = series.curve.x[i] < 0.9 ? 0 : 4.25;
+    add(series.curve, 7, 4.25);
+  }
+  BOOST_TEST(900 * place() + 7 * 6.2 < 88 + 0.9 / 7 * 788);
+  figure.panels[0].marks.push_back({4.3, "plateau too", false});
+  Curve& everywhere = figure.panels[0].series[0].curve;
+  for (int i = 0; i < 700; ++i) add(everywhere, 0.01 * i, i % 2 == 0 ? -1 : 5);
+  drawn(figure, folder.path);
+  BOOST_TEST(labels_in(panel_of(contents(folder.path / "fig5.gp"), 1)).size() == 3U);  // no room, but not lost
+}
+
+BOOST_AUTO_TEST_CASE(words_of_spans_and_marks_stay_as_they_are) {
+  const Folder folder;
+  Figure figure = histories();
+  const std::string nasty = "σ_{xx}^2 @b {c} \\n `date` $x %d & <it's>";
+  figure.panels[0].spans = {{1, 2, nasty + "\nspan", "k'i\nn_d"}};
+  figure.panels[0].marks = {{3, nasty + " upright", true}, {2, nasty + " level", false}};
+  const bool picture = drawn(figure, folder.path);
+  const std::string script = contents(folder.path / "fig5.gp"), csv = contents(folder.path / "fig5.csv");
+  const std::string in_quotes = "'σ_{xx}^2 @b {c} \\n `date` $x %d & <it''s> ";
+  for (const std::string end : {"span'", "upright'", "level'"})
+    BOOST_TEST(has(script, "set label " + in_quotes + end + " at screen "), end);
+  BOOST_TEST(has(script, "  # edges of spans of kind 'k''i n_d'\n"));
+  const std::string panel = " of panel 'longitudinal': ";
+  BOOST_TEST(has(csv, "# span" + panel + "x from 1 to 2, k'i n_d: " + nasty + " span\n"));
+  BOOST_TEST(has(csv, "# mark" + panel + "x = 3: " + nasty + " upright\n"));
+  BOOST_TEST(has(csv, "# mark" + panel + "y = 2: " + nasty + " level\n"));
+  if (!picture) return;
+  const std::string svg = contents(folder.path / "fig5.svg");
+  for (const std::string end : {"span", "upright", "level"})
+    BOOST_TEST(has(svg, "σ_{xx}^2 @b {c} \\n `date` $x %d &amp; &lt;it's> " + end), end);
+}
+
+BOOST_AUTO_TEST_CASE(data_of_spans_and_marks) {
+  const Folder folder;
+  Figure figure = histories();
+  figure.panels[1].spans = {{0.1 + 0.2, 0.5, "late", ""}};
+  drawn(figure, folder.path);
+  const std::string csv = contents(folder.path / "fig5.csv");
+  BOOST_TEST(has(csv,
+                 "# span of panel 'longitudinal': x from 1.1 to 2.3, intact: window 1: behind the shock\n"
+                 "# span of panel 'longitudinal': x from 2.8 to 4.6, failed: window 2: behind the failure wave\n"
+                 "# span of panel 'longitudinal': x from 4.3 to 5.4, release: window 3\n"
+                 "# span of panel 'longitudinal': x from 5.6 to 7.5, intact: window 4\n"
+                 "# mark of panel 'longitudinal': x = 0.9: shock\n"
+                 "# mark of panel 'longitudinal': x = 2.6: failure wave\n"
+                 "# mark of panel 'longitudinal': y = 4.25: plateau\n"
+                 "# span of panel 'lateral': x from 0.30000000000000004 to 0.5: late\n"
+                 "panel,series,x,y\n"));
+}
+
+BOOST_AUTO_TEST_CASE(spans_and_marks_out_of_sight_are_named) {
+  const Folder folder;
+  Figure figure = histories();
+  figure.panels[0].spans.push_back({7.5, 8, "late window", "intact"});
+  figure.panels[0].spans.push_back({-3, -2, "", "early"});
+  figure.panels[0].marks.push_back({9, "late wave", true});
+  figure.panels[0].marks.push_back({-2, "low plateau", false});
+  drawn(figure, folder.path);
+  const std::string script = contents(folder.path / "fig5.gp");
+  BOOST_TEST(has(script, "'longitudinal [outside the axes: late window, early, late wave, low plateau]'"));
+  for (const std::string number : {"7.5", "-3", "9", "-2"}) BOOST_TEST(!has(script, "from " + number + ","), number);
+  BOOST_TEST(!has(script, "first -2"));
+}
+
+BOOST_AUTO_TEST_CASE(without_labels_there_is_no_room_for_them) {
+  const Folder folder;
+  Figure figure = histories();
+  drawn(figure, folder.path);
+  const double with = number_after(contents(folder.path / "fig5.gp"), "rounded size 900,");
+  for (Figure::Span& span : figure.panels[0].spans) span.label.clear();
+  for (Figure::Mark& mark : figure.panels[0].marks) mark.label.clear();
+  drawn(figure, folder.path);
+  const std::string script = contents(folder.path / "fig5.gp");
+  BOOST_TEST(number_after(script, "rounded size 900,") == with - 2 * (2 * 18 + 4));  // two rows above each panel
+  BOOST_TEST(has(script, "rectangle from 1.1,"));
+  BOOST_TEST(has(script, "set arrow from 0.9,graph 0"));
+  BOOST_TEST(!has(script, "heads"));
+  BOOST_TEST(labels_in(panel_of(script, 1)).size() == 1U);
+}
+
+BOOST_AUTO_TEST_CASE(thin_series_have_the_colour_of_their_method) {
+  const Folder folder;
+  Figure figure = example(1);
+  for (const char* kind : {"fem-thin", "mpm-thin"}) {
+    Figure::Series series = figure.panels[0].series[kind[0] == 'f' ? 1 : 2];
+    series.kind = kind;
+    series.label += " without viscosity";
+    figure.panels[0].series.push_back(series);
+  }
+  drawn(figure, folder.path);
+  const std::string script = contents(folder.path / "fig1.gp");
+  BOOST_TEST(has(script, "set style line 2 lw 1.4 lc rgb '#08306b'  # 'FEM'\n"));
+  BOOST_TEST(has(script, "set style line 4 lw 0.8 lc rgb '#08306b' dt (14,6)  # 'FEM without viscosity'\n"));
+  BOOST_TEST(has(script, "set style line 3 lc rgb '#d55e00' pt 6 "));
+  BOOST_TEST(has(script, "set style line 5 lc rgb '#d55e00' pt 2 "));
+  const std::vector<Drawing> all = drawings(script, 1);
+  BOOST_TEST_REQUIRE(all.size() == 5U);
+  BOOST_TEST(all[3].style == "lines ls 4");
+  BOOST_TEST(all[4].style == "points ls 5");
+}
+
+BOOST_AUTO_TEST_CASE(a_long_name_in_the_legend_goes_on_below) {
+  const Folder folder;
+  Figure figure = example(1);
+  drawn(figure, folder.path);
+  const double before = number_after(contents(folder.path / "fig1.gp"), "rounded size 900,");
+  std::string name = "FEM";
+  for (int i = 0; i < 30; ++i) name += " with words";
+  figure.panels[0].series[1].label = name;
+  drawn(figure, folder.path);
+  const std::string script = contents(folder.path / "fig1.gp");
+  // 333 characters of 7 px need four lines of 747 px; one more for each entry beside it.
+  BOOST_TEST(number_after(script, "rounded size 900,") == before + 5 * 20);
+  for (const Label& label : labels_in(script.substr(0, script.find("# Panel 1\n"))))
+    BOOST_TEST(label.text.size() * 7 < 800U, label.text);
 }
 
 BOOST_AUTO_TEST_CASE(missing_gnuplot_leaves_script_and_data) {
@@ -481,6 +770,16 @@ BOOST_AUTO_TEST_CASE(refuses_what_cannot_be_drawn) {
   refused([](Figure& f) { f.panels[1].x_range = {{0, std::numeric_limits<double>::infinity()}}; });
   refused([](Figure& f) { f.panels[1].y_range = {{-std::numeric_limits<double>::infinity(), 1}}; });
   refused([](Figure& f) { f.panels[1].y_range = {{0, nan_value}}; });
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const Figure::Span& span : {Figure::Span{0.5, 0.4, "", ""},
+                                   {nan_value, 1, "", ""},
+                                   {0, nan_value, "", ""},
+                                   {0, infinity, "", ""},
+                                   {-infinity, 1, "", ""}})
+    refused([&](Figure& f) { f.panels[1].spans = {{0.2, 0.3, "", ""}, span}; });
+  for (const double at : {nan_value, infinity, -infinity})
+    for (const bool vertical : {true, false})
+      refused([&](Figure& f) { f.panels[1].marks = {{0.2, "", true}, {at, "", vertical}}; });
   BOOST_TEST(folder.entries() == 0U);
   std::ofstream(folder.path / "file") << "x";
   BOOST_CHECK_THROW(draw(example(), folder.path / "file", message), std::runtime_error);

@@ -526,8 +526,8 @@ mutant(plate-shear-a-hundredth-off FILE material/plane.hpp SOURCES fem/plate.cpp
   KILLS plate.incompressible/constant plate.incompressible/displacement-order plate.lame/constant
         plate.lame/displacement-order plate.patch/stress)
 mutant(plate-mpm-swapped-gradient FILE mpm/plate_kernels.hpp SOURCES mpm/plate.cpp
-  FIND    "strain.yy[p] += near[a] * yy_left + far[a] * yy_right;"
-  REPLACE "strain.yy[p] += near[a] * xy_left + far[a] * xy_right + 0 * (yy_left + yy_right);"
+  FIND    "const double yy = near[a] * yy_left + far[a] * yy_right;"
+  REPLACE "const double yy = near[a] * xy_left + far[a] * xy_right + 0 * (yy_left + yy_right);"
   KILLS plate.patch/stress plate.pic/stress plate.rigid/displacement plate.rigid/velocity)
 mutant(plate-fem-swapped-gradient FILE fem/cell.hpp SOURCES fem/plate.cpp
   FIND    "(along_x[1] / h.x + along_y[0] / h.y) / 2"

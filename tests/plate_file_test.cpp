@@ -295,6 +295,168 @@ max = 1e-12
 reason = "r"
 )toml";
 
+/// A failure wave behind the shock of a flyer.
+const std::string struck = R"toml(schema = 1
+id = "struck"
+title = "t"
+claim = "cross-code"
+why = "w"
+units = "SI"
+[plate]
+width = 42e-3
+rows = 2
+[material]
+model = "failure-wave"
+E = 72.8e9
+nu = 0.222
+rho = 2563
+plane = "strain"
+threshold = 2.75e9
+f_max = 0.5
+[diffusion]
+d0 = 8.0
+profile = "rising"
+face_holds = "largest"
+scheme = "rkl2"
+drift = 0.25
+[flyer]
+thickness = 18e-3
+velocity = 684.0
+gap = { value = 2, unit = "cells" }
+[viscosity]
+form = "york"
+c1 = 0.2
+c2 = 0.3
+bulk = 0.5
+length = 2
+acts = "always"
+[supports]
+left = "free"
+right = "free"
+bottom = "roller"
+top = "roller"
+[model]
+features = ["viscosity", "diffusion", "failure-wave", "impact"]
+[axes]
+method = ["fem", "mpm-musl"]
+cells = [7, 14, 28, 42]
+courant = [0.3]
+[sample]
+times = { unit = "s", at = [1e-6] }
+probes = [{ id = "total", reads = "total" }, { id = "c", reads = "concentration", at = [20e-3, 0] }]
+gauges = [
+  { id = "near", from_face = 4.5e-3 },
+  { id = "far", from_face = 6.5e-3 },
+]
+[[gate]]
+id = "settles"
+kind = "settling"
+quantity = "gauge.near.yy"
+max = 0.9
+reason = "r"
+[[gate]]
+id = "front"
+kind = "constant"
+quantity = "gauge.near.failure"
+predict = "diffusion-front"
+ratio = [0.5, 2]
+reason = "r"
+[[gate]]
+id = "speed"
+kind = "exact"
+quantity = "failure.speed"
+expect = 1500
+max = 700
+reason = "r"
+[[gate]]
+id = "late"
+kind = "exact"
+quantity = "gauge.far.longitudinal"
+expect = 1
+max = 0.01
+reason = "r"
+[[gate]]
+id = "ahead"
+kind = "invariant"
+quantity = "dilatancy.ahead"
+max = 0
+reason = "r"
+[[gate]]
+id = "agree"
+kind = "agreement"
+quantity = "gauge.far.dilatancy"
+max = 1
+judged = [42]
+reason = "r"
+[[figure]]
+id = "fig16"
+kind = "gauges"
+cells = 42
+components = ["lateral"]
+time_range = [0, 2e-6]
+range = [-1, 4]
+bands = [
+  { label = "both", speed = [800, 2100], delay = [0.1e-6, 0.7e-6] },
+  { label = "one", speed = 2000 },
+]
+[[figure]]
+id = "failure"
+kind = "failure"
+cells = 42
+pictures = ["fig16"]
+sections = [{ heading = "h", says = "s", variants = [""] }]
+)toml";
+
+/// The same without what fails: the exact solution is known.
+const std::string shocked = R"toml(schema = 1
+id = "shocked"
+title = "t"
+claim = "code-verification"
+why = "w"
+units = "SI"
+[plate]
+width = 42e-3
+rows = 1
+[material]
+model = "elastic"
+E = 72.8e9
+nu = 0.222
+rho = 2563
+plane = "strain"
+[flyer]
+thickness = 18e-3
+velocity = 684.0
+[supports]
+left = "free"
+right = "free"
+bottom = "roller"
+top = "roller"
+[model]
+features = ["elastic", "impact"]
+[exact]
+solution = "plate-impact"
+[axes]
+method = ["fem", "mpm-musl"]
+cells = [7, 14, 28, 42]
+courant = [0.3]
+[sample]
+times = { unit = "s", at = [1e-6] }
+gauges = [{ id = "near", from_face = 4.5e-3 }]
+[[gate]]
+id = "lattice"
+kind = "invariant"
+quantity = "gauge.near.prediction"
+max = 1e-9
+reason = "r"
+[[gate]]
+id = "plateau"
+kind = "constant"
+quantity = "gauge.near.plateau"
+predict = "impact-lattice"
+ratio = [0.999, 1.001]
+reason = "r"
+)toml";
+
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
   BOOST_REQUIRE_MESSAGE(at != std::string::npos, "the test speaks of '" + from + "', which the case lacks");
@@ -597,7 +759,6 @@ BOOST_AUTO_TEST_CASE(an_unknown_key_names_its_neighbour) {
   wrong(alone(), "shrinks = false", "shrink = false", {"gate \"radius\": shrink", "\"shrinks\""});
   // What bars have, plates have not.
   wrong(elastic_mode, "[exact]", "[contact]\nfem = \"bonded\"\n[exact]", {"contact", "unknown key"});
-  wrong(elastic_mode, "[exact]", "[viscosity]\nform = \"york\"\n[exact]", {"viscosity", "unknown key"});
 }
 
 BOOST_AUTO_TEST_CASE(numbers_out_of_their_range_are_refused) {
@@ -941,7 +1102,7 @@ BOOST_AUTO_TEST_CASE(mistakes_of_variants_are_reported) {
   // Keys of what is no part of the scene.
   also("\"damages.rate\" = \"tracked\"",
        {"variant 1: set.damages.rate", "found \"damages.rate\"", "\"damage\", \"diffusion\", \"supports\""});
-  also("\"exact.solution\" = \"expressions\"", {"found \"exact.solution\"", "keys of the scene's tables"});
+  also("\"sample.times\" = 1", {"found \"sample.times\"", "keys of the scene's tables"});
   also("\"parameters.P\" = 1", {"found \"parameters.P\"", "keys of the scene's tables"});
   wrong(whole, rate, "without = [\"damage.reference_rate\", \"axes\"]", {"variant 1: without", "found \"axes\""});
   // What would be a mistake in the file is one in the variant, which is named.
@@ -1119,7 +1280,7 @@ BOOST_AUTO_TEST_CASE(broken_files_never_crash) {
     const std::string said = message(text);
     if (!said.empty() && said.rfind("plate.toml:", 0) != 0) BOOST_ERROR("without its place: " + said);
   };
-  for (const std::string& base : {whole, elastic_mode, pure}) {
+  for (const std::string& base : {whole, elastic_mode, pure, struck, shocked}) {
     for (std::size_t size = 0; size < base.size(); size += 29) survives(base.substr(0, size));
     const auto all = lines(base);
     for (std::size_t skipped = 0; skipped < all.size(); ++skipped) {  // each line gone, each line twice
@@ -1143,6 +1304,386 @@ BOOST_AUTO_TEST_CASE(broken_files_never_crash) {
       survives(text);
     }
   }
+}
+
+// ---- plates that a flyer strikes ------------------------------------------------------------------------------------
+
+namespace {
+
+/// `line` is put after `place`, and is the mistake.
+void added(const std::string& text, const std::string& place, const std::string& line,
+           const std::vector<std::string>& parts) {
+  const std::string with = replaced(text, place + '\n', place + '\n' + line + '\n');
+  const std::string marked = replaced(text, place + '\n', place + "\n#" + line + '\n');  // the line may stand elsewhere
+  const std::string all = message(with);
+  const std::string at = "plate.toml:" + std::to_string(line_of(marked, '#' + line)) + ':';
+  BOOST_TEST(lines(all).size() == 1u, "wanted one line about '" << line << "', have\n" << all);
+  BOOST_TEST(all.rfind(at, 0) == 0, "wanted " << at << ", have\n" << all);
+  for (const std::string& part : parts)
+    BOOST_TEST(all.find(part) != std::string::npos, "wanted '" << part << "' in\n" << all);
+  BOOST_TEST(all.find("allowed") != std::string::npos, "nothing is said of what is allowed:\n" << all);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(every_key_of_a_failure_wave_is_read) {
+  BOOST_REQUIRE_EQUAL(message(struck), "");
+  const Case c = parse_case(struck, "plate.toml");
+  const PlateSpec& plate = *c.plate;
+  BOOST_TEST((plate.width == 42e-3 && plate.rows == 2 && plate.cell_aspect == 1));
+  const auto& law = std::get<material::FailureWave>(plate.material.value());
+  BOOST_TEST((law.elastic.youngs_modulus == 72.8e9 && law.elastic.poissons_ratio == 0.222));
+  BOOST_TEST((law.elastic.density == 2563 && law.elastic.plane == material::Plane::strain));
+  BOOST_TEST((law.threshold == 2.75e9 && law.most_converted == 0.5));
+  BOOST_TEST((!plate.evolution && !plate.diffusion && !plate.face && !plate.compression));
+  BOOST_REQUIRE(plate.spread.has_value());
+  BOOST_TEST((plate.spread->diffusivity == 8 && plate.spread->profile == diffusion::Profile::rising));
+  BOOST_TEST((plate.spread->scheme == diffusion::Scheme::rkl2 && plate.spread->drift == 0.25));
+  BOOST_TEST(plate.spread->keeps_largest);
+  BOOST_REQUIRE(plate.flyer.has_value());
+  BOOST_TEST((plate.flyer->thickness == 18e-3 && plate.flyer->velocity == 684));
+  BOOST_TEST((plate.flyer->gap == 2 && plate.flyer->gap_unit == "cells"));
+  BOOST_REQUIRE(plate.viscosity.has_value());
+  BOOST_TEST((plate.viscosity->c1 == 0.2 && plate.viscosity->c2 == 0.3 && plate.viscosity->bulk == 0.5));
+  BOOST_TEST((plate.viscosity->length == 2 && plate.viscosity->always));
+  BOOST_TEST((plate.viscosity->form == material::Viscosity::Form::york));
+  BOOST_TEST((c.features == std::vector<std::string>{"diffusion", "failure-wave", "impact", "viscosity"}));
+  BOOST_REQUIRE_EQUAL(c.gauges.size(), 2u);
+  BOOST_TEST((c.gauges[0].id == "near" && c.gauges[0].from_face == 4.5e-3 && c.gauges[1].id == "far"));
+  BOOST_REQUIRE_EQUAL(c.gates.size(), 6u);
+  BOOST_TEST((c.gates[0].kind == "settling" && c.gates[0].quantity == "gauge.near.yy" && c.gates[0].max == 0.9));
+  BOOST_TEST((c.gates[1].predict == "diffusion-front" && c.gates[2].expect == 1500 && c.gates[3].expect == 1));
+  BOOST_REQUIRE_EQUAL(c.figures.size(), 2u);
+  const FigureSpec &figure = c.figures[0], &page = c.figures[1];
+  BOOST_TEST((figure.kind == "gauges" && figure.gauges == std::vector<std::string>{"near", "far"}));
+  BOOST_TEST((figure.variants == std::vector<std::string>{""}));
+  BOOST_TEST((figure.components == std::vector<std::string>{"lateral"}));
+  BOOST_TEST((figure.time_range == std::array<double, 2>{0, 2e-6} && figure.range == std::array<double, 2>{-1, 4}));
+  BOOST_REQUIRE_EQUAL(figure.bands.size(), 2u);
+  BOOST_TEST((figure.bands[0].label == "both" && figure.bands[0].speed == std::array<double, 2>{800, 2100}));
+  BOOST_TEST((figure.bands[0].delay == std::array<double, 2>{0.1e-6, 0.7e-6}));
+  BOOST_TEST((figure.bands[1].speed == std::array<double, 2>{2000, 2000}));
+  BOOST_TEST((figure.bands[1].delay == std::array<double, 2>{0, 0}));
+  BOOST_TEST((page.kind == "failure" && page.pictures == std::vector<std::string>{"fig16"}));
+  BOOST_REQUIRE_EQUAL(page.sections.size(), 1u);
+  BOOST_TEST((page.sections[0].heading == "h" && page.sections[0].says == "s"));
+  BOOST_TEST((page.sections[0].variants == std::vector<std::string>{""}));
+}
+
+BOOST_AUTO_TEST_CASE(keys_of_a_struck_plate_have_usual_values) {
+  const Case c = parse_case(
+      without(struck, {"scheme = ", "drift = ", "face_holds", "gap = ", "bulk = ", "length = ", "acts = "}), "t");
+  BOOST_TEST((c.plate->spread->scheme == diffusion::Spread{}.scheme && c.plate->spread->drift == 0));
+  BOOST_TEST(!c.plate->spread->keeps_largest);
+  BOOST_TEST((c.plate->flyer->gap == 0 && c.plate->flyer->gap_unit == "m"));
+  BOOST_TEST((c.plate->viscosity->bulk == 0.75 && !c.plate->viscosity->always));
+  BOOST_TEST(c.plate->viscosity->length == std::sqrt(2.0), tt::tolerance(1e-15));
+  for (const auto& [name, profile] :
+       {std::pair{"falling", diffusion::Profile::falling}, std::pair{"constant", diffusion::Profile::constant}})
+    BOOST_TEST((good(struck, "\"rising\"", '"' + std::string(name) + '"').plate->spread->profile == profile));
+  BOOST_TEST((good(struck, "value = 2, unit = \"cells\"", "value = 1e-4, unit = \"m\"").plate->flyer->gap == 1e-4));
+  // An impact face without a flyer, and what is there at the start.
+  std::string alone = without(struck, {"gap = ", "thickness = ", "velocity = ", "from_face", "gauges = ["});
+  alone = replaced(alone.substr(0, alone.find("[[gate]]")), "[flyer]\n", "");
+  alone = replaced(alone, "]\n]\n", "]\n");
+  alone = replaced(alone, ", \"impact\"", "");
+  alone = replaced(alone, "drift = 0.25", "face = 6e-3\n[initial]\ndilatancy = \"x*y\"");
+  alone += "[[gate]]\nid = \"g\"\nkind = \"invariant\"\nquantity = \"concentration.least\"\nmax = 0\nreason = \"r\"\n";
+  BOOST_REQUIRE_EQUAL(message(alone), "");
+  const Case held = parse_case(alone, "t");
+  BOOST_TEST((held.plate->face == 6e-3 && held.plate->initial_concentration == "x*y" && !held.plate->flyer));
+  BOOST_TEST((spread_of(held, 14)->face == 2 && spread_of(held, 14)->start.size() == 15u * 3));
+  expect_at(replaced(alone, "face = 6e-3", "face = 7e-3"), "[diffusion]",
+            {"diffusion", "the impact face at 1.16667 cells of the mesh of 7 cells", "a column of nodes"});
+  wrong(alone, "face = 6e-3", "face = 43e-3", {"diffusion.face", "found 0.043", "0 to 0.042 m"});
+  wrong(alone, "dilatancy = \"x*y\"", "dilatancys = \"x*y\"", {"initial.dilatancys", "\"dilatancy\"?"});
+  wrong(alone, "dilatancy = \"x*y\"", "dilatancy = \"x*t\"", {"initial.dilatancy"});
+  // Along x the two sides are not alike.
+  wrong(alone, "quantity = \"concentration.least\"", "quantity = \"bits.mirror\"", {"gate \"g\": quantity", "face"});
+}
+
+BOOST_AUTO_TEST_CASE(mistakes_in_a_failing_material_are_told) {
+  for (const auto& [from, to, key] :
+       std::vector<std::array<std::string, 3>>{{"rows = 2", "row = 2", "\"rows\"?"},
+                                               {"threshold = ", "treshold = ", "\"threshold\"?"},
+                                               {"f_max = ", "fmax = ", "\"f_max\"?"},
+                                               {"d0 = 8.0", "d00 = 8.0", "\"d0\"?"},
+                                               {"profile = ", "profil = ", "\"profile\"?"},
+                                               {"drift = ", "drif = ", "\"drift\"?"},
+                                               {"thickness = ", "thicknes = ", "\"thickness\"?"},
+                                               {"gap = ", "gaps = ", "\"gap\"?"},
+                                               {"c2 = 0.3", "c3 = 0.3", "c1, c2"},
+                                               {"acts = ", "act = ", "\"acts\"?"},
+                                               {"from_face = 4.5e-3", "from_fac = 4.5e-3", "\"from_face\"?"},
+                                               {"gauges = [", "gauge = [", "\"gauges\"?"},
+                                               {"[flyer]", "[flier]", "\"flyer\"?"},
+                                               {"components = ", "component = ", "\"components\"?"},
+                                               {"time_range = ", "time_rang = ", "\"time_range\"?"},
+                                               {"delay = [", "delays = [", "\"delay\"?"},
+                                               {"pictures = ", "picture = ", "\"pictures\"?"},
+                                               {"says = \"s\"", "say = \"s\"", "\"says\"?"}})
+    says(replaced(struck, from, to), to, {key});
+  says(replaced(struck, "model = \"failure-wave\"", "model = \"failure\""), "model = \"failure\"",
+       {"material.model", "\"failure-wave\"?"});
+}
+
+BOOST_AUTO_TEST_CASE(numbers_of_a_failure_wave_have_their_ranges) {
+  wrong(struck, "d0 = 8.0", "d0 = -8.0", {"diffusion.d0", "found -8", ">= 0"});
+  BOOST_TEST(message(replaced(struck, "d0 = 8.0", "d0 = 0")) == "");
+  wrong(struck, "f_max = 0.5", "f_max = 1.0001", {"material.f_max", "found 1.0001", "0 to 1"});
+  wrong(struck, "f_max = 0.5", "f_max = -0.5", {"material.f_max", "found -0.5", ">= 0"});
+  BOOST_TEST(message(replaced(struck, "f_max = 0.5", "f_max = 1")) == "");
+  BOOST_TEST(message(replaced(struck, "f_max = 0.5", "f_max = 0")) == "");
+  wrong(struck, "threshold = 2.75e9", "threshold = -1", {"material.threshold", "found -1", ">= 0"});
+  wrong(struck, "\"rising\"", "\"rises\"", {"diffusion.profile", "\"falling\", \"constant\", \"rising\""});
+  wrong(struck, "\"largest\"", "\"all\"", {"diffusion.face_holds", "\"present\", \"largest\""});
+  wrong(struck, "\"rkl2\"", "\"rkl3\"", {"diffusion.scheme", "\"rkl2\"?"});
+  wrong(struck, "drift = 0.25", "drift = -1", {"diffusion.drift", "found -1"});
+  says(replaced(struck, "\"rkl2\"", "\"crank-nicolson\""), "drift",
+       {"diffusion.drift", "0.25 with \"crank-nicolson\""});
+  wrong(struck, "plane = \"strain\"", "plane = \"stress\"", {"material.plane", "\"stress\" of a failure wave"});
+  added(struck, "f_max = 0.5", "compression = { strength = 1e8, slope = 0 }",
+        {"material.compression", "beside a failure wave"});
+  for (const char* key : {"threshold", "f_max", "d0", "profile"})
+    says(without(struck, {std::string(key) + " = "}),
+         key == std::string("d0") || key == std::string("profile") ? "[diffusion]" : "[material]",
+         {"." + std::string(key), "missing"});
+  // Keys of other materials, and this one's with them.
+  added(struck, "f_max = 0.5", "K_IC = 1e6", {"material.K_IC", "model = \"failure-wave\""});
+  added(shocked, "plane = \"strain\"", "f_max = 0.5", {"material.f_max", "model = \"elastic\"", "\"failure-wave\""});
+  added(struck, "d0 = 8.0", "T_d = 1", {"diffusion.T_d"});
+  expect_at(replaced(struck, "[flyer]", "[damage]\ncritical_strain = 1\n[flyer]"), "[damage]",
+            {"damage", "found beside"});
+}
+
+BOOST_AUTO_TEST_CASE(rows_stand_for_a_height) {
+  added(struck, "rows = 2", "height = 1.0", {"plate.height", "found beside rows"});
+  added(struck, "rows = 2", "cell_aspect = 2", {"plate.cell_aspect", "found beside rows"});
+  wrong(struck, "rows = 2", "rows = 0", {"plate.rows", "found 0"});
+  wrong(struck, "rows = 2", "rows = 1.5", {"plate.rows", "found 1.5"});
+  const std::string tall = replaced(struck, "rows = 2", "height = 12e-3");
+  BOOST_TEST(message(tall) == "");
+  BOOST_TEST((cells_of(*parse_case(tall, "t").plate, 7).y == 2));
+  BOOST_TEST((cells_of(*parse_case(struck, "t").plate, 42).y == 2));
+  expect_at(replaced(replaced(struck, "rows = 2", "rows = 10000"), "28, 42]", "28, 42, 42000]"), "[axes]",
+            {"axes", "42000 × 10000 cells", "at most 1e+08"});
+}
+
+BOOST_AUTO_TEST_CASE(a_flyer_strikes_a_target_on_every_mesh) {
+  wrong(struck, "thickness = 18e-3", "thickness = 42e-3",
+        {"flyer.thickness", "found 0.042", "less than the plate's width"});
+  wrong(struck, "thickness = 18e-3", "thickness = 0", {"flyer.thickness", "found 0", "> 0"});
+  wrong(struck, "velocity = 684.0", "velocity = -684.0", {"flyer.velocity", "found -684", "> 0"});
+  wrong(struck, "value = 2, unit = \"cells\"", "value = -2, unit = \"cells\"", {"flyer.gap", "found -2", ">= 0"});
+  wrong(struck, "value = 2, unit = \"cells\"", "value = 2, unit = \"mm\"", {"flyer.gap", "\"m\""});
+  says(without(struck, {"velocity = "}), "[flyer]", {"flyer.velocity", "missing"});
+  expect_at(replaced(struck, "thickness = 18e-3", "thickness = 15e-3"), "[flyer]",
+            {"flyer", "the impact face at 2.5 cells of the mesh of 7 cells", "a column of nodes on every mesh"});
+  BOOST_TEST(message(replaced(struck, "thickness = 18e-3", "thickness = 12e-3")) == "");
+  expect_at(replaced(replaced(struck, "left = \"free\"", "left = \"driven\""), "top = \"roller\"",
+                     "top = \"roller\"\nvelocity = [\"0\", \"0\"]"),
+            "[flyer]", {"flyer", "beside a driven side or a platen"});
+  expect_at(replaced(struck, "right = \"free\"", "right = \"platen\""), "[flyer]",
+            {"beside a driven side or a platen"});
+  expect_at(replaced(struck, "[model]", "[initial]\nvelocity = [\"0*x\", \"0*y\"]\n[model]"), "[initial]",
+            {"initial", "beside [flyer]"});
+  expect_at(replaced(struck, "d0 = 8.0", "d0 = 8.0\nface = 18e-3"), "[flyer]", {"flyer", "beside diffusion.face"});
+}
+
+BOOST_AUTO_TEST_CASE(finite_displacements_are_not_of_struck_particles) {
+  // The message is about MPM, at the methods; FEM's mesh goes with the plate.
+  const std::string finite = replaced(replaced(shocked, "[model]\n", "[model]\ndisplacements = \"finite\"\n"),
+                                      "\"impact\"]", "\"impact\", \"convection\"]");
+  expect_at(finite, "method = [\"fem\", \"mpm-musl\"]",
+            {"axes.method", "MPM together with finite displacements and a flyer", "\"infinitesimal\""});
+  BOOST_TEST(message(replaced(finite, "\"fem\", \"mpm-musl\"", "\"fem\"")) == "");
+}
+
+BOOST_AUTO_TEST_CASE(the_viscosity_of_a_plate_is_eq_21) {
+  wrong(struck, "form = \"york\"", "form = \"linear-quadratic\"", {"viscosity.form", "\"york\""});
+  says(without(struck, {"form = "}), "[viscosity]", {"viscosity.form", "missing", "\"york\""});
+  wrong(struck, "c1 = 0.2", "c1 = -0.2", {"viscosity.c1", "found -0.2", ">= 0"});
+  says(without(struck, {"c2 = "}), "[viscosity]", {"viscosity.c2", "missing"});
+  wrong(struck, "bulk = 0.5", "bulk = 0", {"viscosity.bulk", "found 0", "> 0"});
+  wrong(struck, "length = 2", "length = -2", {"viscosity.length", "found -2", "> 0"});
+  wrong(struck, "\"always\"", "\"never\"", {"viscosity.acts", "\"compression\", \"always\""});
+}
+
+BOOST_AUTO_TEST_CASE(gauges_lie_in_the_target) {
+  wrong(struck, "from_face = 6.5e-3", "from_face = 24.1e-3", {"from_face", "found 0.0241", "in the target", "0.024 m"});
+  BOOST_TEST(message(replaced(struck, "from_face = 6.5e-3", "from_face = 24e-3")) == "");
+  wrong(struck, "from_face = 6.5e-3", "from_face = 0", {"from_face", "found 0", "> 0"});
+  wrong(struck, "  { id = \"far\", from_face = 6.5e-3 },",
+        "  { id = \"far\", from_face = 6.5e-3 }, { id = \"near\", from_face = 1e-3 },",
+        {"sample.gauges", "id", "\"near\" again"});
+  added(elastic_mode, "[sample]", "gauges = [{ id = \"a\", from_face = 0.1 }]",
+        {"sample.gauges", "from_face", "without [flyer]"});
+}
+
+BOOST_AUTO_TEST_CASE(features_of_struck_plates_are_declared) {
+  expect_at(replaced(struck, "\"viscosity\", ", ""), "features", {"missing \"viscosity\"", "[viscosity] switches on"});
+  expect_at(replaced(struck, ", \"impact\"", ""), "features", {"missing \"impact\"", "[flyer] switches on"});
+  expect_at(replaced(struck, ", \"failure-wave\"", ""), "features", {"missing \"failure-wave\""});
+  expect_at(replaced(shocked, "\"impact\"", "\"impact\", \"failure-wave\""), "features", {"found \"failure-wave\""});
+}
+
+BOOST_AUTO_TEST_CASE(an_impact_is_exact_for_elastic_plates_between_rollers) {
+  BOOST_REQUIRE_EQUAL(message(shocked), "");
+  BOOST_TEST(parse_case(shocked, "t").plate->exact.solution == "plate-impact");
+  BOOST_TEST(make_plane_exact(parse_case(shocked, "t"))->name() == "plate-impact");
+  const std::string place = "solution = \"plate-impact\"";
+  std::string alone = without(shocked, {"thickness = ", "velocity = ", "gauges = "});
+  alone = replaced(alone.substr(0, alone.find("[[gate]]")), "[flyer]\n", "");
+  alone = replaced(alone, ", \"impact\"", "") +
+          "[[gate]]\nid = \"g\"\nkind = \"exact\"\nquantity = \"stress.L1\"\nmax = 1\nreason = \"r\"\n";
+  expect_at(alone, place, {"exact.solution", "\"plate-impact\" without a flyer", "[flyer]"});
+  expect_at(replaced(struck, "[axes]", "[exact]\n" + place + "\n[axes]"), place,
+            {"exact.solution", "of a solid that fails", "elastic"});
+  for (const char* side : {"left", "right"})
+    expect_at(replaced(shocked, std::string(side) + " = \"free\"", std::string(side) + " = \"roller\""), place,
+              {"exact.solution", "held otherwise", "left and right sides free"});
+  for (const char* side : {"bottom", "top"})
+    expect_at(replaced(shocked, std::string(side) + " = \"roller\"", std::string(side) + " = \"free\""), place,
+              {"exact.solution", "held otherwise"});
+  added(shocked, place, "mode = 1", {"exact.mode", "solution = \"plate-impact\""});
+  wrong(shocked, place, "solution = \"plate-inpact\"", {"exact.solution", "\"plate-impact\"?"});
+}
+
+BOOST_AUTO_TEST_CASE(dilatancy_may_diffuse_alone) {
+  std::string alone =
+      replaced(pure, pure.substr(pure.find("diffusivity"), pure.find("[model]") - pure.find("diffusivity")),
+               "law = \"dilatancy\"\nd0 = 8.0\nprofile = \"falling\"\nscheme = \"forward-euler\"\n");
+  alone = replaced(alone, "solution = \"corner-source\"\ncore = 0.1", "solution = \"face-front\"");
+  alone = replaced(alone, "courant = [0.25, 0.5, 1, 2]", "courant = [0.03, 0.06, 0.12, 0.24]");
+  BOOST_REQUIRE_EQUAL(message(alone), "");
+  const Case c = parse_case(alone, "t");
+  BOOST_REQUIRE(c.plate->diffusion->spread.has_value());
+  BOOST_TEST((c.plate->diffusion->spread->diffusivity == 8 && !c.plate->spread));
+  BOOST_TEST((c.plate->diffusion->spread->profile == diffusion::Profile::falling));
+  BOOST_TEST(make_plane_exact(c)->name() == "face-front");
+  says(replaced(alone, "d0 = 8.0", "d0 = 8.0\ndiffusivity = 1"), "diffusivity = 1",
+       {"diffusion.diffusivity", "with law = \"dilatancy\""});
+  says(replaced(alone, "d0 = 8.0", "d0 = -8.0"), "d0 = -8.0", {"diffusion.d0", "found -8"});
+  added(pure, "corner_rate = -0.5", "d0 = 1", {"diffusion.d0", "without law = \"dilatancy\""});
+  added(pure, "corner_rate = -0.5", "law = \"dilatency\"", {"diffusion.law", "\"dilatancy\"?"});
+  wrong(alone, "solution = \"face-front\"", "solution = \"corner-source\"", {"exact.solution", "\"face-front\""});
+  wrong(pure, "solution = \"corner-source\"", "solution = \"face-front\"", {"exact.solution", "\"corner-source\""});
+  says(replaced(pure, "[model]", "[flyer]\nthickness = 1.0\nvelocity = 1\n[model]"), "[flyer]",
+       {"flyer", "without [material]"});
+  says(replaced(pure, "[model]", "[viscosity]\nform = \"york\"\nc1 = 1\nc2 = 1\n[model]"), "[viscosity]",
+       {"viscosity", "without [material]"});
+}
+
+BOOST_AUTO_TEST_CASE(gates_of_gauges_name_what_is_there) {
+  wrong(struck, "quantity = \"gauge.near.yy\"", "quantity = \"gauge.neer.yy\"",
+        {"gate \"settles\": quantity", "\"gauge.near.yy\"?"});
+  wrong(struck, "quantity = \"gauge.near.yy\"", "quantity = \"gauge.near.plateau\"",
+        {"gate \"settles\": quantity", "not for kind = \"settling\""});
+  wrong_here(struck, "quantity = \"failure.speed\"", "quantity = \"failure.sped\"",
+             {"gate \"speed\": quantity", "\"failure.speed\"?"});
+  wrong(struck, "quantity = \"dilatancy.ahead\"", "quantity = \"gauge.near.arrival\"",
+        {"gate \"ahead\": quantity", "not for kind = \"invariant\""});
+  // A speed is of two gauges.
+  says(replaced(without(struck, {"id = \"far\""}), "quantity = \"failure.speed\"", "quantity = \"failure.delay\""),
+       "quantity = \"failure.delay\"", {"gate \"speed\": quantity"});
+  // Theories of gauges are not of fields, nor that of modes of gauges.
+  wrong(struck, "predict = \"diffusion-front\"", "predict = \"mode\"",
+        {"gate \"front\": predict", "\"mode\" for \"gauge.near.failure\"", "\"diffusion-front\""});
+  wrong(elastic_mode, "predict = \"mode\"", "predict = \"plate-impact\"",
+        {"gate \"constant\": predict", "\"plate-impact\" for \"displacement.L2\"", "\"mode\""});
+  wrong(struck, "predict = \"diffusion-front\"", "predict = \"diffusion-fron\"", {"predict", "\"diffusion-front\"?"});
+  says(without(struck, {"expect = 1500"}), "[[gate]]\nid = \"speed\"", {"gate \"speed\": expect", "missing"});
+  const auto also = [](const std::string& text, const std::string& quantity) {
+    return text + "[[gate]]\nid = \"new\"\nreason = \"r\"\nkind = \"invariant\"\nmax = 0\nquantity = \"" + quantity +
+           "\"\n";
+  };
+  expect_at(also(struck, "bits.mirror"), "quantity = \"bits.mirror\"",
+            {"gate \"new\": quantity", "of a flyer, which comes from the left", "without [flyer]"});
+  expect_at(also(struck, "bits.power-of-two"), "quantity = \"bits.power-of-two\"", {"of a plate with damage"});
+  for (const char* quantity : {"bits.undamaged", "cross.forward-euler", "concentration.balance", "concentration.least",
+                               "energy.dissipated", "impact.left-over", "bits.threads"})
+    BOOST_TEST(message(also(struck, quantity)) == "", quantity);
+  for (const char* quantity : {"bits.power-of-two", "impact.left-over", "energy.dissipated"})
+    BOOST_TEST(message(also(shocked, quantity)) == "", quantity);
+  for (const char* quantity : {"impact.left-over", "dilatancy.ahead"})
+    says(also(elastic_mode, quantity), "quantity = \"" + std::string(quantity) + '"', {"without a flyer", "with it"});
+  for (const char* quantity : {"bits.undamaged", "cross.forward-euler", "concentration.balance"})
+    says(also(shocked, quantity), "quantity = \"" + std::string(quantity) + '"', {"without", "allowed: with it"});
+}
+
+BOOST_AUTO_TEST_CASE(settling_is_of_four_meshes_of_one_or_two_methods) {
+  const auto where = [](const std::string& text, const std::string& keys, const std::vector<std::string>& parts) {
+    const std::string other = "where = { " + keys + " }";
+    says(replaced(text, "max = 0.9", other + "\nmax = 0.9"), other, parts);
+  };
+  where(struck, "cells = [7, 14, 28]", {"gate \"settles\": where", "found 3 meshes of fem", "at least 4"});
+  BOOST_TEST(message(replaced(struck, "max = 0.9", "max = 0.9\nwhere = { method = \"fem\" }")) == "");
+  const std::string three = replaced(struck, "\"fem\", \"mpm-musl\"", "\"fem\", \"mpm-musl\", \"mpm-usf\"");
+  says(three, "[[gate]]\nid = \"settles\"", {"gate \"settles\": where", "found 3 methods", "one or two"});
+  const std::string steps = replaced(struck, "courant = [0.3]", "courant = [0.3, 0.2]");
+  where(steps, "method = \"fem\"", {"gate \"settles\": where", "more than the mesh", "courant = 0.2", "one of them"});
+  const std::string grains = replaced(struck, "courant = [0.3]", "courant = [0.3]\nparticles = [2, [0.5]]");
+  where(grains, "method = \"mpm-musl\"", {"gate \"settles\": where", "more than the mesh", "one of them"});
+  says(without(struck, {"max = 0.9"}), "[[gate]]\nid = \"settles\"", {"gate \"settles\": max", "missing"});
+  added(struck, "max = 0.9", "judged = [42]", {"gate \"settles\": judged", "kind = \"settling\"", "\"agreement\""});
+}
+
+BOOST_AUTO_TEST_CASE(figures_of_gauges_draw_what_is_there) {
+  wrong(struck, "components = [\"lateral\"]", "components = [\"across\"]",
+        {"figure", "components", "\"longitudinal\", \"lateral\""});
+  says(without(struck, {"components = "}), "[[figure]]\nid = \"fig16\"", {"components", "missing"});
+  added(struck, "components = [\"lateral\"]", "gauges = [\"neer\"]", {"gauges", "\"near\"?"});
+  added(struck, "components = [\"lateral\"]", "variants = [\"weak\"]", {"variants", "found \"weak\""});
+  wrong(struck, "speed = 2000", "speed = [2000, 1000]", {"speed", "one speed, or [least, most]"});
+  wrong(struck, "speed = 2000", "speed = [1000, 2000, 3000]", {"speed", "one speed, or [least, most]"});
+  wrong(struck, "speed = 2000", "speed = 0", {"speed", "found 0", "> 0"});
+  wrong(struck, "delay = [0.1e-6, 0.7e-6]", "delay = [0.7e-6, 0.1e-6]", {"delay"});
+  wrong(struck, "delay = [0.1e-6, 0.7e-6]", "delay = [-1, 0.1e-6]", {"delay", ">= 0"});
+  wrong(struck, "time_range = [0, 2e-6]", "time_range = [2e-6, 0]", {"time_range"});
+  added(struck, "pictures = [\"fig16\"]", "components = [\"lateral\"]",
+        {"components", "kind = \"failure\"", "\"gauges\""});
+  wrong(struck, "variants = [\"\"] }", "variants = [\"weak\"] }", {"variants", "found \"weak\""});
+  expect_at(replaced(struck, "pictures = [\"fig16\"]", "pictures = [\"fig17\"]"), "[[figure]]",
+            {"figure", "\"fig17\"", "\"failure\""});
+  // Without gauges there is nothing to draw.
+  std::string none = without(shocked, {"gauges = "});
+  none = none.substr(0, none.find("[[gate]]")) +
+         "[[gate]]\nid = \"g\"\nkind = \"exact\"\nquantity = \"stress.L1\"\nmax = 1\nreason = \"r\"\n"
+         "[[figure]]\nid = \"f\"\ncells = 42\n";
+  says(none + "kind = \"gauges\"\ncomponents = [\"lateral\"]\n", "kind = \"gauges\"",
+       {"figure", "without a gauge", "sample.gauges"});
+  says(none + "kind = \"failure\"\n", "kind = \"failure\"", {"figure", "without a gauge", "sample.gauges"});
+}
+
+// What a variant changes is checked as what it changes.
+BOOST_AUTO_TEST_CASE(variants_of_struck_plates_are_checked) {
+  const auto with = [](const std::string& change, const std::string& more = "") {
+    return replaced(replaced(struck, "[axes]", "[[variant]]\nid = \"v\"\nsays = \"s\"\n" + change + "\n[axes]"),
+                    "courant = [0.3]\n", "courant = [0.3]\nvariant = [\"\", \"v\"]\n" + more);
+  };
+  std::string one = with("set = { \"flyer.thickness\" = 12e-3 }");
+  for (const char* gate : {"settles", "agree"})
+    one = replaced(one, "[[gate]]\nid = \"" + std::string(gate) + '"',
+                   "[[gate]]\nwhere = { variant = \"\" }\nid = \"" + std::string(gate) + '"');
+  BOOST_REQUIRE_EQUAL(message(one), "");
+  BOOST_TEST(parse_case(one, "t").variants.at(0).plate.flyer->thickness == 12e-3);
+  const auto other = [&](const std::string& change) {
+    return replaced(one, "set = { \"flyer.thickness\" = 12e-3 }", change);
+  };
+  BOOST_TEST(message(other("without = [\"viscosity\"]")) == "");
+  BOOST_TEST(!parse_case(other("without = [\"viscosity\"]"), "t").variants.at(0).plate.viscosity);
+  const auto told = [&](const std::string& change, const std::string& part) {
+    const std::string all = message(other(change));
+    BOOST_TEST(all.find(part) != std::string::npos, "wanted '" << part << "' for " << change << ", have\n" << all);
+  };
+  told("set = { \"material.f_max\" = 2 }", "variant \"v\": material.f_max");
+  told("set = { \"flyer.thickness\" = 15e-3 }", "a column of nodes");
+  told("set = { \"flyer.thickness\" = 36e-3 }", "in the target");
+  // Gauges of a scene that nothing strikes: neither measured nor drawn.
+  std::string still = other("without = [\"flyer\"]");
+  BOOST_TEST(message(still) == "");
+  still = replaced(still, "components = [\"lateral\"]", "components = [\"lateral\"]\nvariants = [\"\", \"v\"]");
+  says(still, "variants = [\"\", \"v\"]", {"figure", "variants", "flyer"});
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -1,4 +1,4 @@
-#include "reports/choices_page.hpp"
+#include "reports/page.hpp"
 
 #include <fmt/format.h>
 
@@ -19,6 +19,7 @@ constexpr const char* looks = R"(
 body { margin: 2rem auto; max-width: 76rem; padding: 0 1.25rem; color: #1a1a1a; background: #ffffff;
        font: 16px/1.5 system-ui, -apple-system, "Segoe UI", Roboto, "DejaVu Sans", sans-serif; }
 h1 { font-size: 1.7rem; line-height: 1.25; margin: 0 0 0.75rem; max-width: 48rem; }
+h2 { font-size: 1.25rem; line-height: 1.3; margin: 2.25rem 0 0.5rem; max-width: 48rem; break-after: avoid; }
 p { max-width: 48rem; margin: 0.5rem 0; }
 .scroll { overflow-x: auto; margin: 1.5rem 0; }
 table { border-collapse: collapse; width: 100%; font-size: 0.94rem; }
@@ -36,10 +37,14 @@ thead .number { white-space: normal; text-align: right; }
 figure { margin: 0; }
 img { display: block; width: 21rem; max-width: 100%; height: auto; border: 1px solid #e4e4e4; background: #ffffff; }
 figcaption { font-size: 0.82rem; color: #4a4a4a; max-width: 21rem; margin-top: 0.25rem; }
+.wide { margin: 1rem 0; max-width: 57rem; overflow-x: auto; break-inside: avoid; }
+.wide img { width: 100%; min-width: 48rem; max-width: none; }
+.wide figcaption { max-width: 48rem; }
 footer { margin-top: 2rem; padding-top: 0.75rem; border-top: 1px solid #dcdcdc; font-size: 0.82rem; color: #4a4a4a; }
 footer p { max-width: none; margin: 0.1rem 0; overflow-wrap: anywhere; }
 @media print { body { margin: 0; max-width: none; font-size: 11px; } .scroll { overflow: visible; }
-               thead th { position: static; } img { width: 13rem; } a { color: inherit; } }
+               thead th { position: static; } img { width: 13rem; }
+               .wide img { width: 100%; min-width: 0; } a { color: inherit; } }
 )";
 
 /// XML 1.0 has no control characters, not even escaped ones.
@@ -75,50 +80,92 @@ std::string link_of(const std::string& path) {
   return out;
 }
 
-void check(const ChoicesPage& page) {
-  for (const ChoicesPage::Row& row : page.rows) {
-    const auto refuse = [&](const std::string& why) {
-      throw std::invalid_argument("choice '" + row.name + "': " + why);
-    };
-    if (row.values.size() != page.columns.size())
-      refuse(fmt::format("{} values for {} columns", row.values.size(), page.columns.size()));
-    if (std::filesystem::path(row.picture).is_absolute() || row.picture.find(':') != std::string::npos)
-      refuse("'" + row.picture + "' is no path relative to the page");
+void check_picture(const std::string& path, const std::string& of) {
+  if (std::filesystem::path(path).is_absolute() || path.find(':') != std::string::npos)
+    throw std::invalid_argument(of + ": '" + path + "' is no path relative to the page");
+}
+
+void check(const Page& page) {
+  for (const Page::Section& section : page.sections) {
+    check_picture(section.picture, "section '" + section.heading + "'");
+    for (const Page::Row& row : section.rows) {
+      check_picture(row.picture, "row '" + row.name + "'");
+      if (row.values.size() != section.columns.size())
+        throw std::invalid_argument(
+            fmt::format("row '{}': {} values for {} columns", row.name, row.values.size(), section.columns.size()));
+    }
   }
 }
 
 /// Whether some cell of the column is a number: all of it then stands to the right.
-bool numbers_in(const ChoicesPage& page, std::size_t column) {
-  return std::any_of(page.rows.begin(), page.rows.end(),
-                     [&](const ChoicesPage::Row& row) { return numeric(row.values[column]); });
+bool numbers_in(const Page::Section& section, std::size_t column) {
+  return std::any_of(section.rows.begin(), section.rows.end(),
+                     [&](const Page::Row& row) { return numeric(row.values[column]); });
 }
 
-void add_row(pugi::xml_node body, const ChoicesPage& page, const ChoicesPage::Row& row, bool pictures) {
+/// A picture that leads to its file, where it can be seen larger.
+void add_picture(pugi::xml_node figure, const std::string& path, const std::string& words, const std::string& caption) {
+  pugi::xml_node link = add(figure, "a"), picture = add(link, "img");
+  link.append_attribute("href") = link_of(path).c_str();
+  picture.append_attribute("src") = link_of(path).c_str();
+  picture.append_attribute("alt") = printable(caption.empty() ? words : caption).c_str();
+  picture.append_attribute("loading") = "lazy";
+  if (!caption.empty()) add(figure, "figcaption", caption);
+}
+
+void add_row(pugi::xml_node body, const Page::Section& section, const Page::Row& row, bool pictures) {
   pugi::xml_node line = add(body, "tr", "", row.reference ? "reference" : nullptr);
   pugi::xml_node head = add(line, "th");
   head.append_attribute("scope") = "row";
   pugi::xml_node name = add(head, "span", row.name, "name");
   if (row.reference) add(name, "span", "reference", "tag");
   if (!row.description.empty()) add(head, "span", row.description, "what");
-  for (std::size_t i = 0; i < page.columns.size(); ++i)
-    add(line, "td", row.values[i].empty() ? "–" : row.values[i], numbers_in(page, i) ? "number" : nullptr);
+  for (std::size_t i = 0; i < section.columns.size(); ++i)
+    add(line, "td", row.values[i].empty() ? "–" : row.values[i], numbers_in(section, i) ? "number" : nullptr);
   if (!pictures) return;
-  if (row.picture.empty()) {
+  if (row.picture.empty())
     add(line, "td", "–");
-    return;
+  else
+    add_picture(add(add(line, "td"), "figure"), row.picture, "Contour: " + row.name, row.caption);
+}
+
+void add_table(pugi::xml_node main, const Page::Section& section) {
+  const bool pictures =
+      std::any_of(section.rows.begin(), section.rows.end(), [](const Page::Row& row) { return !row.picture.empty(); });
+  pugi::xml_node table = add(add(main, "div", "", "scroll"), "table"), top = add(add(table, "thead"), "tr");
+  const auto column = [&](const std::string& text, const char* kind) {
+    add(top, "th", text.empty() ? "–" : text, kind).append_attribute("scope") = "col";
+  };
+  column(section.first, nullptr);
+  for (std::size_t i = 0; i < section.columns.size(); ++i)
+    column(section.columns[i], numbers_in(section, i) ? "number" : nullptr);
+  if (pictures) column("Contour", nullptr);
+  pugi::xml_node lines = add(table, "tbody");
+  for (const Page::Row& row : section.rows) add_row(lines, section, row, pictures);
+  if (section.rows.empty()) {
+    pugi::xml_node none = add(add(lines, "tr"), "td", "Nothing was compared.");
+    none.append_attribute("colspan") = static_cast<unsigned long long>(section.columns.size() + 1);
   }
-  pugi::xml_node figure = add(add(line, "td"), "figure"), link = add(figure, "a"), picture = add(link, "img");
-  link.append_attribute("href") = link_of(row.picture).c_str();
-  picture.append_attribute("src") = link_of(row.picture).c_str();
-  picture.append_attribute("alt") = printable(row.caption.empty() ? "Contour: " + row.name : row.caption).c_str();
-  picture.append_attribute("loading") = "lazy";
-  if (!row.caption.empty()) add(figure, "figcaption", row.caption);
+}
+
+void add_paragraphs(pugi::xml_node parent, const std::vector<std::string>& paragraphs) {
+  for (const std::string& paragraph : paragraphs) add(parent, "p", paragraph.empty() ? " " : paragraph);
+}
+
+void add_section(pugi::xml_node main, const Page::Section& section, const std::string& title) {
+  if (!section.heading.empty()) add(main, "h2", section.heading);
+  add_paragraphs(main, section.text);
+  if (!section.picture.empty())
+    add_picture(add(main, "figure", "", "wide"), section.picture, section.heading.empty() ? title : section.heading,
+                section.caption);
+  if (!section.columns.empty() || !section.rows.empty()) add_table(main, section);
 }
 
 }  // namespace
 
-std::string choices_html(const ChoicesPage& page) {
+std::string page_html(const Page& page) {
   check(page);
+  const std::string title = page.title.empty() ? "Results" : page.title;
   pugi::xml_document document;
   document.append_child(pugi::node_doctype).set_value("html");
   pugi::xml_node root = document.append_child("html");
@@ -129,39 +176,19 @@ std::string choices_html(const ChoicesPage& page) {
   pugi::xml_node view = add(head, "meta");
   view.append_attribute("name") = "viewport";
   view.append_attribute("content") = "width=device-width, initial-scale=1";
-  add(head, "title", page.title.empty() ? "Choices" : page.title);
+  add(head, "title", title);
   add(head, "style", looks);
 
   pugi::xml_node body = add(root, "body"), main = add(body, "main");
-  add(main, "h1", page.title.empty() ? "Choices" : page.title);
-  for (const std::string& paragraph : page.intro) add(main, "p", paragraph.empty() ? " " : paragraph);
-  bool pictures = false;
-  for (const ChoicesPage::Row& row : page.rows) pictures = pictures || !row.picture.empty();
-  pugi::xml_node table = add(add(main, "div", "", "scroll"), "table"), top = add(add(table, "thead"), "tr");
-  const auto column = [&](const std::string& text, const char* kind) {
-    add(top, "th", text.empty() ? "–" : text, kind).append_attribute("scope") = "col";
-  };
-  column(page.first, nullptr);
-  for (std::size_t i = 0; i < page.columns.size(); ++i)
-    column(page.columns[i], numbers_in(page, i) ? "number" : nullptr);
-  if (pictures) column("Contour", nullptr);
-  pugi::xml_node lines = add(table, "tbody");
-  for (const ChoicesPage::Row& row : page.rows) add_row(lines, page, row, pictures);
-  if (page.rows.empty()) {
-    pugi::xml_node none = add(add(lines, "tr"), "td", "No choices were compared.");
-    none.append_attribute("colspan") = static_cast<unsigned long long>(page.columns.size() + 1);
-  }
-  if (!page.footer.empty()) {
-    pugi::xml_node foot = add(body, "footer");
-    for (const std::string& line : page.footer) add(foot, "p", line.empty() ? " " : line);
-  }
+  add(main, "h1", title);
+  add_paragraphs(main, page.intro);
+  for (const Page::Section& section : page.sections) add_section(main, section, title);
+  if (!page.footer.empty()) add_paragraphs(add(body, "footer"), page.footer);
   std::ostringstream out;
   document.save(out, " ", pugi::format_indent | pugi::format_no_declaration);
   return out.str();
 }
 
-void write_choices_page(const ChoicesPage& page, const std::filesystem::path& path) {
-  write_file(path, choices_html(page));
-}
+void write_page(const Page& page, const std::filesystem::path& path) { write_file(path, page_html(page)); }
 
 }  // namespace diptych::reports
