@@ -202,8 +202,11 @@ void judge_settling(const GateSpec& gate, const std::vector<const Run*>& runs, r
     return sprague_geers(history_of(a, gate.quantity), history_of(b, gate.quantity)).combined;
   };
   const auto falls = [&](const std::string& what, const std::vector<double>& distances) {
+    for (const double one : distances) {
+      if (!std::isfinite(one)) invalid(what + ": a history vanishes");
+      if (one <= 1e-12) invalid(what + ": two histories are the same");
+    }
     for (std::size_t k = 0; k + 1 < distances.size(); ++k) {
-      if (!(distances[k] > 1e-12)) invalid(what + ": two histories are the same");
       hold(result, {fmt::format("{}: {:.3g} after {:.3g}", what, distances[k + 1], distances[k]), distances[k + 1],
                     distances[k], 0, *gate.max, distances[k + 1] / distances[k], false});
     }
@@ -212,6 +215,8 @@ void judge_settling(const GateSpec& gate, const std::vector<const Run*>& runs, r
     std::sort(series.begin(), series.end(), [](const Run* a, const Run* b) { return a->cells < b->cells; });
     if (series.size() < 4) invalid(fmt::format("{}: {} meshes, at least 4 are needed", method, series.size()));
     std::vector<double> between;
+    for (std::size_t k = 0; k + 1 < series.size(); ++k)
+      if (series[k]->cells == series[k + 1]->cells) invalid("two runs of a method on one mesh");
     for (std::size_t k = 0; k + 1 < series.size(); ++k) between.push_back(distance(*series[k], *series[k + 1]));
     falls(method, between);
   }

@@ -521,6 +521,7 @@ void check_settling(Table& t, const GateSpec& gate, const Case& c) {
   for (const Leaf& run : runs_of(gate, c)) {
     meshes[run.method].insert(run.cells);
     otherwise[run.method].insert("courant = " + words(run.courant) +
+                                 (run.particles.empty() ? "" : ", particles = " + words(run.particles)) +
                                  (parameters_label(run).empty() ? "" : ", " + parameters_label(run)));
   }
   const Place place = t.place("where");
@@ -556,7 +557,8 @@ void check_plate_gate(Table& t, const GateSpec& gate, const Case& c) {
     t.place("predict").refuse(words(gate.predict) + " for " + words(gate.quantity),
                               of_gauge ? "\"plate-impact\", \"impact-lattice\" or \"diffusion-front\"" : "\"mode\"");
   if (gate.kind == "settling" && !c.axes.empty()) check_settling(t, gate, c);
-  if (gate.predict == "mode" && !e.solution.empty() && !contains({"lame-mode", "roller-mode", "p-wave"}, e.solution))
+  if (gate.predict == "mode" && !of_gauge && !e.solution.empty() &&
+      !contains({"lame-mode", "roller-mode", "p-wave"}, e.solution))
     t.place("predict").refuse("\"mode\" for exact.solution = " + words(e.solution),
                               "with \"lame-mode\", \"roller-mode\" or \"p-wave\"");
   const auto needs = [&](const Names& quantities, bool there, const std::string& what) {
@@ -582,6 +584,8 @@ void check_plate_gate(Table& t, const GateSpec& gate, const Case& c) {
     place.refuse(words(gate.quantity) + " with run.ledger = false", "with the ledger, run.ledger = true");
   if (gate.quantity == "bits.mirror" && c.plate->flyer)
     place.refuse(words(gate.quantity) + " of a flyer, which comes from the left", "without [flyer]");
+  if (gate.quantity == "bits.mirror" && c.plate->face)
+    place.refuse(words(gate.quantity) + " of an impact face, which stays where it is", "without diffusion.face");
   if (gate.quantity == "bits.power-of-two" && (c.plate->evolution || c.plate->spread))
     place.refuse(words(gate.quantity) + " of a plate with damage", "of elastic plates: eq. 23a is not free of units");
   if (gate.kind == "order") check_order(t, gate, c);

@@ -485,6 +485,13 @@ void read_gauge_figure(Table& t, FigureSpec& figure, const Case& c) {
       figure.sections.push_back(section);
     });
   if (of("pictures", {"failure"})) figure.pictures = t.get("pictures", set_of(id()));
+  // What draws or tabulates histories of gauges needs them: a variant that keeps its flyer.
+  const auto struck = [&](const Place& place, const Names& names) {
+    for (const PlateVariant& variant : c.variants)
+      if (contains(names, variant.id) && !variant.plate.flyer)
+        place.refuse(words(variant.id) + ", a variant without a flyer", "variants with [flyer]");
+  };
+  struck(t.place("variants"), figure.variants);
   if (contains({"gauges", "failure"}, figure.kind) && gauges.empty())
     t.place("kind").refuse(words(figure.kind) + " without a gauge", "with sample.gauges");
 }
@@ -616,6 +623,14 @@ void read_judgement(Table& file, Case& c) {
   });
   c.gates = read_each<GateSpec>(file, "gate", c, read_gate);
   c.figures = read_each<FigureSpec>(file, "figure", c, read_figure);
+  Names drawn;
+  for (const FigureSpec& figure : c.figures)
+    if (figure.kind == "gauges") drawn.push_back(figure.id);
+  for (const FigureSpec& figure : c.figures)
+    for (const std::string& picture : figure.pictures)
+      if (!contains(drawn, picture))
+        file.place("figure").say("found " + words(picture) + " among the pictures of " + words(figure.id) +
+                                 "; allowed: figures of kind gauges of this case, " + joined(drawn));
 
   if (c.gates.empty())
     file.place("gate").say("missing; a case with no gate is an error; allowed: at least one [[gate]]");

@@ -327,6 +327,9 @@ void show_plate(const Case& c) {
     fmt::print("  load       {} {} on the {} side, traction {}{}\n", load.history, load.shear ? "shear" : "normal",
                side_names[static_cast<std::size_t>(load.side)], load.traction,
                load.history == "ramp" ? fmt::format(", over {:g} s", load.rise) : "");
+  if (const auto& flyer = c.plate->flyer)
+    fmt::print("  flyer      {:g} m thick at {:g} m/s, a gap of {:g} {}\n", flyer->thickness, flyer->velocity,
+               flyer->gap, flyer->gap_unit);
   for (const auto& [feature, key] : plate_features(c)) fmt::print("  uses       {}: {}\n", feature, key);
   for (const auto& [name, value] : c.parameters) fmt::print("  parameter  {} = {:g}\n", name, value);
   for (const PlateVariant& variant : c.variants) fmt::print("  variant    {}: {}\n", variant.id, variant.says);
@@ -334,6 +337,8 @@ void show_plate(const Case& c) {
              fmt::join(c.features, ", "), fmt::join(c.times, ", "));
   show_runs(c);
   for (const PlateProbe& probe : c.plate_probes) fmt::print("  probe      {} {}\n", probe.id, probe.reads);
+  for (const GaugeSpec& gauge : c.gauges)
+    fmt::print("  gauge      {}, {:g} m from the impact face\n", gauge.id, gauge.from_face);
   for (const GateSpec& gate : c.gates) fmt::print("  gate       {:24} {}\n", gate.id, gate.declaration);
   for (const FigureSpec& figure : c.figures) fmt::print("  figure     {}\n", figure.id);
 }
@@ -402,6 +407,15 @@ int paper_command(const Options& options, const std::atomic<bool>& cancelled) {
     }
   }
   if (options.selectors.empty()) wanted = known;
+  for (const Case& c : cases) {  // a page and the pictures on it go together
+    for (const FigureSpec& f : c.figures) {
+      const auto asked = [&](const std::string& id) { return wanted.count(id) > 0; };
+      if (!asked(f.id) && std::none_of(f.pictures.begin(), f.pictures.end(), asked)) continue;
+      if (f.pictures.empty()) continue;
+      wanted.insert(f.id);
+      wanted.insert(f.pictures.begin(), f.pictures.end());
+    }
+  }
   std::erase_if(cases, [&](const Case& c) {
     return std::none_of(c.figures.begin(), c.figures.end(),
                         [&](const FigureSpec& f) { return wanted.count(f.id) > 0; });

@@ -52,13 +52,11 @@ reports::Curve in_figure_units(const std::vector<double>& time, const std::vecto
   return curve;
 }
 
-/// The elastic solution: a step at the arrival and back at the release.
+/// The elastic solution until it is released: a step at the arrival.
 reports::Curve elastic_curve(const ImpactTheory& theory, double stress, double end) {
-  reports::Curve curve{{0, theory.arrival * 1e6, theory.arrival * 1e6}, {0, 0, stress / 1e9}};
-  const double until = std::min(theory.release, end) * 1e6;
-  curve.x.push_back(until);
-  curve.y.push_back(stress / 1e9);
-  return curve;
+  const double until = std::min(theory.release, end);
+  if (!(until > theory.arrival)) return {{0, until * 1e6}, {0, 0}};
+  return {{0, theory.arrival * 1e6, theory.arrival * 1e6, until * 1e6}, {0, 0, stress / 1e9, stress / 1e9}};
 }
 
 std::string cell(double value, double unit = 1, int digits = 4) {
@@ -136,10 +134,10 @@ reports::Figure gauge_figure(const Case& c, const FigureSpec& spec, const std::v
                                   kind_of_method(method) + (thin ? "-thin" : ""),
                                   in_figure_units(history->time, component == "lateral" ? history->yy : history->xx)});
         }
+        const double over = measure(run, "gauge." + gauge.id + ".overshoot");
         if (spec.variants.size() > 1)
           panel.label += fmt::format("; {} overshoot {:.1f} %, 10–90 % in {:.0f} ns", method == "fem" ? "FEM" : "MPM",
-                                     std::max(0.0, measure(run, "gauge." + gauge.id + ".overshoot")) * 100,
-                                     measure(run, "gauge." + gauge.id + ".rise") * 1e9);
+                                     over < 0 ? 0.0 : over * 100, measure(run, "gauge." + gauge.id + ".rise") * 1e9);
       }
       for (const SpeedBand& band : spec.bands)
         panel.spans.push_back({(gauge.from_face / band.speed[1] + band.delay[0]) * 1e6,

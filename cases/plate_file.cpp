@@ -123,6 +123,9 @@ void read_plate_material(Table& t, Case& c) {
   }
   if (model == "failure-wave" && elastic.plane == material::Plane::stress)
     t.place("plane").refuse("\"stress\" of a failure wave", "\"strain\"");
+  if (model == "failure-wave" && elastic.poissons_ratio <= 0)
+    t.place("nu").refuse(words(elastic.poissons_ratio) + " of a failure wave",
+                         "0 < nu < 0.5: the lateral stress is what its front is seen by");
   if (model == "failure-wave" && plate.compression)
     t.place("compression").say("found beside a failure wave; allowed: without");
   if (model == "tensile-damage")
@@ -542,10 +545,15 @@ GaugeSpec read_gauge(Table& t, const Case& c) {
   const PlateSpec& plate = *c.plate;
   if (!plate.flyer)
     t.place("from_face").say("found without [flyer]; allowed: with one: a gauge's place counts from the impact face");
-  else if (plate.width > 0 && plate.flyer->thickness + gauge.from_face > plate.width)
-    t.place("from_face")
-        .refuse(words(gauge.from_face),
-                "in the target, whose thickness is " + words(plate.width - plate.flyer->thickness) + " m");
+  const auto check = [&](const PlateSpec& one, const std::string& of) {
+    if (!one.flyer || !(one.width > 0) || one.flyer->thickness >= one.width) return;  // no target: refused already
+    if (one.flyer->thickness + gauge.from_face > one.width)
+      t.place("from_face")
+          .refuse(words(gauge.from_face),
+                  fmt::format("in the target{}, whose thickness is {:g} m", of, one.width - one.flyer->thickness));
+  };
+  check(plate, "");
+  for (const PlateVariant& variant : c.variants) check(variant.plate, " of variant " + words(variant.id));
   return gauge;
 }
 
@@ -587,10 +595,11 @@ void check_meshes(const Place& place, const Case& c) {
 }
 
 /// The impact face is a column of nodes on every mesh.
-void check_face(const Place& place, const char* what, double at, const Case& c) {
-  if (!(c.plate->width > 0)) return;
+void check_face(const Place& place, const std::string& what, const PlateSpec& plate, const Case& c) {
+  const auto face = plate.flyer ? std::optional(plate.flyer->thickness) : plate.face;
+  if (!face || !(plate.width > 0)) return;
   for (const int cells : all_axes(c).cells) {
-    const double column = at * cells / c.plate->width;
+    const double column = *face * cells / plate.width;
     if (std::abs(column - std::round(column)) <= 1e-9 * cells) continue;
     place.refuse(fmt::format("{} at {:g} cells of the mesh of {} cells", what, column, cells),
                  "on a column of nodes on every mesh");
@@ -666,8 +675,10 @@ void read_plate_case(Table& file, Case& c) {
   file.table("sample", [&](Table& t) { read_plate_sample(t, c); });
   if (scene_is_read) {
     check_meshes(file.place("axes"), c);
-    if (c.plate->flyer) check_face(file.place("flyer"), "the impact face", c.plate->flyer->thickness, c);
-    if (c.plate->face) check_face(file.place("diffusion"), "the impact face", *c.plate->face, c);
+    const Place face = file.place(c.plate->flyer ? "flyer" : "diffusion");
+    check_face(face, "the impact face", *c.plate, c);
+    for (const PlateVariant& variant : c.variants)
+      check_face(face, "the impact face of variant " + words(variant.id), variant.plate, c);
   }
   read_judgement(file, c);
 }

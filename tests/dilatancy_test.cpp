@@ -263,8 +263,14 @@ BOOST_AUTO_TEST_CASE(a_strip_is_a_line) {
   for (const Profile profile : every_profile) {
     for (const bool ahead : {false, true}) {
       const Grid g{n, 1, h, height};
-      Dilatancy strip(
-          {.diffusivity = d0, .profile = profile, .ahead = ahead, .scheme = Scheme::forward_euler, .face = 0}, g);
+      const bool keeps = !ahead;
+      Dilatancy strip({.diffusivity = d0,
+                       .profile = profile,
+                       .ahead = ahead,
+                       .scheme = Scheme::forward_euler,
+                       .keeps_largest = keeps,
+                       .face = 0},
+                      g);
       const double dt = 0.9 * forward_euler_limit(g, d0);
       std::array<double, n + 1> v{};
       double content = 0;
@@ -282,7 +288,7 @@ BOOST_AUTO_TEST_CASE(a_strip_is_a_line) {
           face[i] = height / (2 * h) * d;
         }
         const double volume = 2 * (h * height / 4), end = h * height / 4;
-        if (ceiling[0] > v[0]) {
+        if (ceiling[0] > 0 && !(keeps && ceiling[0] <= v[0])) {
           content += 2 * end * (ceiling[0] - v[0]);
           v[0] = ceiling[0];
         }
@@ -308,7 +314,8 @@ BOOST_AUTO_TEST_CASE(a_strip_is_a_line) {
 BOOST_AUTO_TEST_CASE(the_face_holds_the_mean_ceiling_beside_it) {
   const Grid g{2, 4, 1, 2};
   for (const Scheme scheme : every_scheme) {
-    Dilatancy v({.diffusivity = 1, .profile = Profile::constant, .scheme = scheme, .face = 1}, g);
+    Dilatancy v({.diffusivity = 1, .profile = Profile::constant, .scheme = scheme, .keeps_largest = true, .face = 1},
+                g);
     const auto at = [&](std::size_t j) { return v.of_nodes()[3 * j + 1]; };
     v.advance(std::vector<double>{0.5, 0, 0.25, 0.75, 0, 0, 0, 0}, 0.1);  // rows of two from the bottom
     BOOST_TEST(at(0) == 0.5);
@@ -325,8 +332,22 @@ BOOST_AUTO_TEST_CASE(the_face_holds_the_mean_ceiling_beside_it) {
     v.advance(std::vector<double>(8, 0.0), 0.1);
     BOOST_TEST(at(0) == 0.5);
     BOOST_TEST(at(4) == 0.125);
+    // following the present strain it comes down again, but where there is no ceiling any more it keeps what it holds
+    Dilatancy present({.diffusivity = 1, .profile = Profile::constant, .scheme = scheme, .face = 1}, g);
+    present.advance(std::vector<double>(8, 0.5), 0.1);
+    present.advance(std::vector<double>(8, 0.25), 0.1);
+    BOOST_TEST(present.of_nodes()[4] == 0.25);
+    BOOST_TEST(std::abs(present.total() - present.fed()) < 1e-14);
+    present.advance(std::vector<double>(8, 0.0), 0.1);
+    BOOST_TEST(present.of_nodes()[4] == 0.25);
     // where the rest conducts too, a node of the face that is not set off fills up like any other
-    Dilatancy open({.diffusivity = 1, .profile = Profile::constant, .ahead = true, .scheme = scheme, .face = 1}, g);
+    Dilatancy open({.diffusivity = 1,
+                    .profile = Profile::constant,
+                    .ahead = true,
+                    .scheme = scheme,
+                    .keeps_largest = true,
+                    .face = 1},
+                   g);
     open.advance(std::vector<double>{0.5, 0, 0, 0, 0, 0, 0, 0}, 0.1);
     open.advance(std::vector<double>{0.5, 0, 0, 0, 0, 0, 0, 0}, 0.1);
     BOOST_TEST(open.of_nodes()[4] == 0.5);
@@ -335,7 +356,7 @@ BOOST_AUTO_TEST_CASE(the_face_holds_the_mean_ceiling_beside_it) {
     Dilatancy none({.scheme = scheme}, g);
     none.advance(std::vector<double>(8, 1), 1e-3);
     BOOST_TEST(none.total() == 0);
-    Dilatancy wall({.scheme = scheme, .face = 2}, g);
+    Dilatancy wall({.scheme = scheme, .keeps_largest = true, .face = 2}, g);
     wall.advance(std::vector<double>(8, 0.5), 1e-3);
     for (std::size_t j = 0; j < 5; ++j) BOOST_TEST(wall.of_nodes()[3 * j + 2] == 0.5);
   }
@@ -357,6 +378,7 @@ BOOST_AUTO_TEST_CASE(what_the_face_and_the_start_have_fed_is_there) {
                    .scheme = scheme,
                    .drift = drift,
                    .start = random_values(g.nodes(), 3, 0, 0.1),
+                   .keeps_largest = true,
                    .face = 4},
                   g);
       const double begin = v.total();
