@@ -46,12 +46,16 @@ std::function<void(std::size_t, std::size_t)> progress() {
 }
 
 /// Runs, judges every gate and makes the figures.
-std::vector<reports::Case> measure(const std::vector<Case>& cases, const Options& options,
+enum class Purpose { judge, show };  // what no gate speaks of is run only to be shown
+
+std::vector<reports::Case> measure(const std::vector<Case>& cases, const Options& options, Purpose purpose,
                                    const std::atomic<bool>& cancelled) {
-  auto results = run_cases(cases, {threads_of(options), &cancelled, options.ledger, options.fields, progress()});
+  const bool judge_only = purpose == Purpose::judge;
+  auto results =
+      run_cases(cases, {threads_of(options), &cancelled, options.ledger, options.fields, judge_only, progress()});
   for (std::size_t i = 0; i < cases.size(); ++i) {
     for (const GateSpec& gate : cases[i].gates) results[i].gates.push_back(judge(cases[i], gate, results[i].runs));
-    add_figures(cases[i], results[i]);
+    if (!judge_only) add_figures(cases[i], results[i]);
   }
   return results;
 }
@@ -211,7 +215,7 @@ bool names_figure(const std::string& wanted, const std::string& id) {
 int run_command(const Options& options, const std::atomic<bool>& cancelled) {
   const auto cases = select_cases(options.selectors);
   prepare(options.out);
-  auto results = measure(cases, options, cancelled);
+  auto results = measure(cases, options, Purpose::show, cancelled);
   for (auto& result : results) {
     for (auto& figure : result.figures) figure.id = result.id + "." + figure.id;  // two cases may call theirs the same
     for (auto& figure : result.problem_figures) figure.id = result.id + "." + figure.id;
@@ -244,7 +248,7 @@ int run_command(const Options& options, const std::atomic<bool>& cancelled) {
 int gate_command(const Options& options, const std::atomic<bool>& cancelled) {
   auto cases = select_cases(options.selectors);
   const int left_out = options.quick ? leave_out_slow(cases) : 0;
-  const auto results = measure(cases, options, cancelled);
+  const auto results = measure(cases, options, Purpose::judge, cancelled);
   for (const auto& result : results) {
     for (const auto& gate : result.gates) print_gate(gate);
   }
@@ -256,7 +260,7 @@ int gate_command(const Options& options, const std::atomic<bool>& cancelled) {
 
 int explain_command(const Options& options, const std::atomic<bool>& cancelled) {
   const auto cases = select_cases(options.selectors);
-  const auto results = measure(cases, options, cancelled);
+  const auto results = measure(cases, options, Purpose::judge, cancelled);
   for (std::size_t i = 0; i < cases.size(); ++i) {
     for (const auto& gate : results[i].gates) {
       fmt::print(
@@ -422,7 +426,7 @@ int paper_command(const Options& options, const std::atomic<bool>& cancelled) {
   });
   const auto out = options.out / "paper";
   prepare(out);
-  const auto results = measure(cases, options, cancelled);
+  const auto results = measure(cases, options, Purpose::show, cancelled);
   const bool stopped = any_cancelled(results);
   for (const auto& result : results) write_tables(result, out / "tables");
   const int undrawn = draw_figures(results, out / "figures", wanted);

@@ -390,7 +390,11 @@ std::vector<reports::Case> run_cases(const std::vector<Case>& cases, const Runni
     result.path = c.path.string();
     result.time_unit = c.time_unit;
     result.units = c.units;
+    const auto judged = [&](const Leaf& leaf) {
+      return std::any_of(c.gates.begin(), c.gates.end(), [&](const GateSpec& g) { return matches(g.where, leaf); });
+    };
     for (const Leaf& leaf : leaves(c)) {
+      if (running.judged_only && !judged(leaf)) continue;
       tasks.push_back({i, result.runs.size(), leaf});
       result.runs.push_back(describe(c, leaf));
     }

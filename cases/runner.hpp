@@ -18,6 +18,7 @@ struct Running {
   const std::atomic<bool>* cancelled = nullptr;  ///< turns true where runs should stop soon
   bool keep_ledger = false;                      ///< keep every step's line of the ledger in the results
   bool keep_fields = false;                      ///< keep all fields of plates at the sample times in the results
+  bool judged_only = false;                      ///< leave out runs that no gate of their case speaks of
   std::function<void(std::size_t done, std::size_t total)> progress =
       {};  ///< after each run, from one thread at a time
 };

@@ -523,7 +523,8 @@ mutant(plate-stress-for-strain FILE material/plane.hpp SOURCES fem/plate.cpp fem
 mutant(plate-shear-a-hundredth-off FILE material/plane.hpp SOURCES fem/plate.cpp fem/plate_time_step.cpp mpm/plate.cpp
   FIND    "const double shear = E / (2 * (1 + nu));"
   REPLACE "const double shear = 1.01 * E / (2 * (1 + nu));"
-  KILLS plate.incompressible/constant plate.incompressible/displacement-order plate.lame/constant
+  KILLS glass.elastic/lateral-ratio
+        plate.incompressible/constant plate.incompressible/displacement-order plate.lame/constant
         plate.lame/displacement-order plate.patch/stress)
 mutant(plate-mpm-swapped-gradient FILE mpm/plate_kernels.hpp SOURCES mpm/plate.cpp
   FIND    "const double yy = near[a] * yy_left + far[a] * yy_right;"
@@ -572,7 +573,8 @@ mutant(corner-source-without-its-quarter FILE cases/plate_runner.cpp
 mutant(diffusion-a-hundredth-off FILE diffusion/concentration.cpp
   FIND    "const double across = grid.hy / (2 * grid.hx), up"
   REPLACE "const double across = 1.01 * grid.hy / (2 * grid.hx), up"
-  KILLS diffusion.green/order diffusion.corner-source/error diffusion.corner-source/order diffusion.mode/order diffusion.order-four/error
+  KILLS glass.front/erfc
+        diffusion.green/order diffusion.corner-source/error diffusion.corner-source/order diffusion.mode/order diffusion.order-four/error
         diffusion.order-four/order diffusion.time/rkl2 diffusion.time/second diffusion.variable/error
         diffusion.variable/order)
 mutant(diffusivity-of-one-side FILE diffusion/concentration.cpp
@@ -604,7 +606,8 @@ mutant(fem-plate-drifts FILE fem/plate.cpp
 mutant(mpm-plate-is-damped FILE mpm/plate_kernels.hpp SOURCES mpm/plate.cpp
   FIND    "        velocity[p] = v;"
   REPLACE "        velocity[p] = 0.9999 * v;"
-  KILLS plate.pic/velocity plate.aspect/velocity plate.bits/closure plate.bits/drift plate.bits/momentum plate.incompressible/energy
+  KILLS glass.elastic/scaling glass.elastic/momentum
+        plate.pic/velocity plate.aspect/velocity plate.bits/closure plate.bits/drift plate.bits/momentum plate.incompressible/energy
         plate.lame/energy plate.rigid/displacement plate.rigid/momentum plate.rigid/velocity plate.roller/constant
         plate.roller/displacement-order plate.roller/energy plate.roller/stress-constant)
 mutant(mpm-flying-plate-is-damped FILE mpm/plate_particles.hpp SOURCES mpm/plate.cpp
@@ -624,7 +627,8 @@ mutant(fem-plate-forgets-nothing FILE fem/plate.cpp
 mutant(fem-plate-counts-threads FILE fem/plate.cpp
   FIND    "dt_(stepping.time_step),"
   REPLACE "dt_(stepping.time_step * (stepping.threads > 1 ? 1 + 1e-12 : 1)),"
-  KILLS plate.bits/threads plate.damage/threads)
+  KILLS glass.elastic/threads glass.extremes/threads glass.wave/threads
+        plate.bits/threads plate.damage/threads)
 mutant(mpm-plate-counts-threads FILE mpm/plate.cpp
   FIND    "dt_(stepping.time_step),"
   REPLACE "dt_(stepping.time_step * (stepping.threads > 1 ? 1 + 1e-12 : 1)),"
@@ -656,7 +660,8 @@ mutant(fem-plate-impulse-on-paper FILE fem/plate.cpp
 mutant(mpm-plate-impulse-on-paper FILE mpm/plate.cpp
   FIND    "ledger->before_kick(work_rate(grid_.velocity), impulse, kick.length);"
   REPLACE "ledger->before_kick(work_rate(grid_.velocity), impulse + 1e-6, kick.length);"
-  KILLS plate.bits/momentum plate.flight/momentum plate.rigid/momentum)
+  KILLS glass.elastic/momentum glass.wave/momentum
+        plate.bits/momentum plate.flight/momentum plate.rigid/momentum)
 mutant(sub-cycles-a-tenth-too-long FILE diffusion/concentration.cpp
   FIND    "const double part = dt / static_cast<double>(parts);"
   REPLACE "const double part = 1.1 * dt / static_cast<double>(parts);"
@@ -665,3 +670,75 @@ mutant(sub-cycles-a-tenth-too-long FILE diffusion/concentration.cpp
 add_test(NAME teeth.coverage
   COMMAND ${PROJECT_SOURCE_DIR}/tests/coverage.sh $<TARGET_FILE:diptych> ${killed_list})
 set_tests_properties(teeth.coverage PROPERTIES LABELS teeth TIMEOUT 60)
+
+# --- a flyer, a failure wave, viscosity of plates -----------------------------------------------------------------------
+mutant(fem-failure-threshold-ignored FILE fem/plate.cpp
+  FIND    "failure().equivalent_stress(mean) <= failure().threshold ? 0 : failure().ceiling(mean)"
+  REPLACE "failure().equivalent_stress(mean) <= 0 * failure().threshold ? 0 : failure().ceiling(mean)"
+  KILLS glass.extremes/no-failure glass.point/stress glass.wave/not-ahead glass.wave/settles-near-xx)
+mutant(mpm-failure-threshold-ignored FILE mpm/plate_law.hpp SOURCES mpm/plate.cpp
+  FIND    "failure_.equivalent_stress(mean) <= failure_.threshold ? 0"
+  REPLACE "failure_.equivalent_stress(mean) <= 0 * failure_.threshold ? 0"
+  KILLS glass.extremes/no-failure glass.point/stress)
+mutant(failure-ahead-of-the-shock FILE diffusion/dilatancy.cpp
+  FIND    "if (ceiling == 0) return spread_.ahead ? spread_.diffusivity : 0;"
+  REPLACE "if (ceiling == 0) return spread_.diffusivity;"
+  KILLS glass.extremes/release)
+mutant(failure-conversion-a-hundredth-off FILE material/failure_wave.hpp SOURCES fem/plate.cpp
+  FIND    "const double f = raised / (2 * shear_energy(strain))"
+  REPLACE "const double f = raised / (2.02 * shear_energy(strain))"
+  KILLS glass.point/stress glass.point/no-first-order glass.point/energy-kept)
+mutant(failure-lateral-not-updated FILE material/failure_wave.hpp SOURCES fem/plate.cpp
+  FIND    "mean + kept * (strain.yy - third), kept"
+  REPLACE "elastic.stiffness().stress(strain).yy + 0 * third, kept"
+  KILLS glass.point/stress glass.wave/lateral-rises)
+mutant(failure-face-keeps-its-overshoot FILE diffusion/dilatancy.cpp
+  FIND    "(spread_.keeps_largest && !(mean > value))"
+  REPLACE "!(mean > value)"
+  KILLS glass.wave/settles-near-yy glass.wave/settles-far-yy glass.wave/settles-near-dilatancy glass.wave/methods-agree
+        glass.wave/failure-near)
+mutant(failure-falls-where-it-rises FILE diffusion/dilatancy.cpp
+  FIND    "spread_.profile == Profile::rising ? part : 1 - part"
+  REPLACE "spread_.profile == Profile::rising ? 1 - part : part"
+  KILLS glass.front/falling glass.front/size)
+mutant(failure-face-follows-slowly FILE diffusion/dilatancy.cpp
+  FIND    "    value = mean;"
+  REPLACE "    value += 0.02 * (mean - value);"
+  KILLS glass.front/balance glass.wave/balance glass.wave/forward-euler glass.wave/rings)
+mutant(failure-face-draws FILE diffusion/dilatancy.cpp
+  FIND    "    value = mean;"
+  REPLACE "    value = -mean;"
+  KILLS glass.extremes/not-negative)
+mutant(fem-impact-face-at-full-speed FILE fem/plate.cpp
+  FIND    "i < face ? v : v / 2"
+  REPLACE "i < face ? v : v / 1"
+  KILLS glass.elastic/lattice-near glass.elastic/lattice-far glass.elastic/plateau-near glass.elastic/arrival-near
+        glass.elastic/rise-near glass.elastic/overshoot-near)
+mutant(mpm-impact-does-not-join FILE mpm/plate_grid.hpp SOURCES mpm/plate.cpp
+  FIND    "if (joined_) unite(grid_.acceleration)"
+  REPLACE "if (joined_ && false) unite(grid_.acceleration)"
+  KILLS glass.elastic/lattice-near glass.elastic/order glass.elastic/displacement glass.extremes/closure)
+mutant(mpm-impact-a-step-early FILE mpm/plate.cpp
+  FIND    "if (!(std::abs(left_over_ + dt_ * opened(state.velocity.x)) < std::abs(left_over_))) break"
+  REPLACE "if (left_over_ + 2 * dt_ * opened(state.velocity.x) < 0) break"
+  KILLS glass.elastic/gap)
+mutant(plate-viscosity-a-fifth-weak FILE material/viscosity.hpp SOURCES fem/plate.cpp
+  FIND    "return density * bulk * speed * length * h * D * (c1 + c2 * relative)"
+  REPLACE "return 0.8 * density * bulk * speed * length * h * D * (c1 + c2 * relative)"
+  KILLS glass.elastic/rise-viscous)
+mutant(plate-viscosity-next-to-none FILE material/viscosity.hpp SOURCES fem/plate.cpp
+  FIND    "return density * bulk * speed * length * h * D * (c1 + c2 * relative)"
+  REPLACE "return 0.05 * density * bulk * speed * length * h * D * (c1 + c2 * relative)"
+  KILLS glass.elastic/rise-viscous glass.wave/no-overshoot)
+mutant(fem-plate-viscous-work-off FILE fem/plate.cpp
+  FIND    "drag_[j].work = h_.triangle_area() * sum / 2"
+  REPLACE "drag_[j].work = h_.triangle_area() * sum / 2.001"
+  KILLS glass.elastic/closure glass.wave/closure)
+mutant(gauge-half-a-millimetre-off FILE cases/plate_build.cpp
+  FIND    "flyer.thickness + gauge.from_face, spec.height"
+  REPLACE "flyer.thickness + gauge.from_face + 0.5e-3, spec.height"
+  KILLS glass.elastic/lattice-near glass.elastic/arrival-exact-near glass.elastic/arrival-exact-far glass.wave/slowing)
+mutant(flyer-a-thirtieth-fast FILE cases/plate_build.cpp
+  FIND    "Impact{flyer.thickness, flyer.velocity, "
+  REPLACE "Impact{flyer.thickness, 1.03 * flyer.velocity, "
+  KILLS glass.elastic/plateau-exact-near glass.elastic/plateau-exact-far glass.wave/longitudinal-stays)
