@@ -186,7 +186,9 @@ const std::vector<std::array<std::string, 3>> grounds{
      "reconstruction", "ours; the form after eq. 25, d0 (1 − V_d/V_d,max), creeps: it is among the variants"},
     {"Strains are those of the reference configuration, and the dilatancy diffuses there; MPM's grid follows the "
      "material",
-     "reconstruction", "ours: particles that cross cells at 6 % strain make a noise that does not converge"},
+     "reconstruction",
+     "ours: particles that cross cells behind a shock of 6 % make a noise that does not converge (case "
+     "glass.crossing)"},
     {"E = 72.8 GPa, ν = 0.222, ρ = 2563 kg/m³", "certain",
      "soda-lime-magnesium silicate, Sci. Rep. 11 (2021), s41598-021-04045-6, table 1"},
     {"Impact stress, thicknesses, d0, f_max, viscosity", "choice",

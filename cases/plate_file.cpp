@@ -333,6 +333,8 @@ void read_plate_viscosity(Table& t, Case& c) {
   v.bulk = t.get("bulk", positive(), v.bulk);
   v.length = t.get("length", positive(), v.length);
   v.always = t.get("acts", one_of({"compression", "always"})) == "always";
+  if (!c.plate->spread && (c.plate->evolution || c.plate->compression))
+    t.say("found beside tensile damage or plasticity; allowed: with an elastic plate or a failure wave");
   c.plate->viscosity = v;
 }
 

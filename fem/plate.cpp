@@ -148,6 +148,9 @@ void check(const Plate& plate, const Cells& cells, const std::optional<diffusion
   if (plate.viscosity && plate.viscosity->form != material::Viscosity::Form::york) {
     refuse("in a plate the artificial viscosity is that of eq. 21");
   }
+  if (plate.viscosity && (evolution || plate.compression)) {
+    refuse("artificial viscosity is for elastic plates and failure waves, not beside tensile damage or plasticity");
+  }
   if (plate.impact) {
     const auto found = [](double x) { return " (" + std::to_string(x) + ")"; };
     const double face = in_parts(plate.impact->face, plate.width, cells.x);
@@ -1139,17 +1142,17 @@ PlateRecord run(const Plate& plate, const Cells& cells, const std::optional<diff
     record.diffusion_updates = body.diffusion_updates();
     return record;
   };
-  const auto viscous_or_not = [&]<bool damaging, bool plastic, bool failing>() {
-    return plate.viscosity ? go.template operator()<Kind{damaging, plastic, failing, true}>()
-                           : go.template operator()<Kind{damaging, plastic, failing, false}>();
-  };
-  if (spread) return viscous_or_not.template operator()<false, false, true>();
-  if (evolution) {
-    return plate.compression ? viscous_or_not.template operator()<true, true, false>()
-                             : viscous_or_not.template operator()<true, false, false>();
+  if (spread) {
+    return plate.viscosity ? go.template operator()<Kind{false, false, true, true}>()
+                           : go.template operator()<Kind{false, false, true, false}>();
   }
-  return plate.compression ? viscous_or_not.template operator()<false, true, false>()
-                           : viscous_or_not.template operator()<false, false, false>();
+  if (plate.viscosity) return go.template operator()<Kind{false, false, false, true}>();
+  if (evolution) {
+    return plate.compression ? go.template operator()<Kind{true, true, false, false}>()
+                             : go.template operator()<Kind{true, false, false, false}>();
+  }
+  return plate.compression ? go.template operator()<Kind{false, true, false, false}>()
+                           : go.template operator()<Kind{false, false, false, false}>();
 }
 
 }  // namespace diptych::fem

@@ -403,7 +403,7 @@ class Body {
   template <Do what>
   void strain_and_force(const VectorField& velocity, double dt) {
     Inviscid none;
-    if constexpr (!convected && what != Do::both) {
+    if constexpr (!convected && !damaging && !PlateLaw::plastic && what != Do::both) {
       if (damping_) return particles_.template strain_and_force<what>(bands_, velocity, dt, law_, *damping_);
     }
     particles_.template strain_and_force<what>(bands_, velocity, dt, law_, none);
@@ -838,6 +838,8 @@ void check(const Plate& plate, const Cells& cells, const std::vector<double>& po
          "dilatancy stays in its cells, so particles that cross cells cannot have it (convected with a failure wave)");
   refuse(plate.viscosity && plate.viscosity->form != material::Viscosity::Form::york,
          "in a plate the artificial viscosity is that of eq. 21");
+  refuse(plate.viscosity && (evolution || plate.compression),
+         "artificial viscosity is for elastic plates and failure waves, not beside tensile damage or plasticity");
   refuse(plate.convected && plate.viscosity,
          "the artificial viscosity is for particles that keep their places (convected with viscosity)");
   for (const Gauge& gauge : plate.gauges)
