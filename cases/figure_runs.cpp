@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 
 #include "cases/leaf.hpp"
 
@@ -35,6 +36,18 @@ std::string kind_of_method(const std::string& method) { return method == "fem" ?
 std::string title_of(const Case& c, const FigureSpec& spec) {
   const std::string title = spec.title.empty() ? c.title : spec.title;
   return spec.id.rfind("fig", 0) == 0 ? fmt::format("Fig. {}. {}", spec.id.substr(3), title) : title;
+}
+
+std::string table_cell(double value, int digits) {
+  return std::isfinite(value) ? fmt::format("{:.{}g}", value, digits) : "–";
+}
+
+void widen(reports::Figure& figure, const reports::Curve& curve) {
+  for (const double y : curve.y) {
+    if (!std::isfinite(y)) continue;
+    figure.y_min = std::min(figure.y_min, y);
+    figure.y_max = std::max(figure.y_max, y);
+  }
 }
 
 }  // namespace diptych::cases

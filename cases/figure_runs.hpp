@@ -15,5 +15,7 @@ const reports::Run* find_run(const std::vector<reports::Run>&, const FigureSpec&
 std::string name_of_method(const std::string& method);  ///< "FEM", "MPM, MUSL"
 std::string kind_of_method(const std::string& method);  ///< "fem" or "mpm", as figures tell them apart
 std::string title_of(const Case&, const FigureSpec&);   ///< "Fig. 4. ..." for "fig4"
+std::string table_cell(double value, int digits = 3);   ///< a dash for what is no finite number
+void widen(reports::Figure&, const reports::Curve&);    ///< the range of y, to hold what is finite of the curve
 
 }  // namespace diptych::cases

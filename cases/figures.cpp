@@ -21,14 +21,6 @@ std::string unit_of(const Case& c, const std::string& field) {
 
 std::string symbol_of(const std::string& field) { return field == "stress" ? "σ" : field == "velocity" ? "v" : "u"; }
 
-void widen(reports::Figure& figure, const reports::Curve& curve) {
-  for (const double y : curve.y) {
-    if (!std::isfinite(y)) continue;
-    figure.y_min = std::min(figure.y_min, y);
-    figure.y_max = std::max(figure.y_max, y);
-  }
-}
-
 std::string length_unit(const Case& c) { return c.units == "paper" ? "paper's units" : "m"; }
 
 bool same(const BarSpec& a, const BarSpec& b) { return words_of(a) == words_of(b); }

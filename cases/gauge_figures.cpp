@@ -59,22 +59,13 @@ reports::Curve elastic_curve(const ImpactTheory& theory, double stress, double e
   return {{0, theory.arrival * 1e6, theory.arrival * 1e6, until * 1e6}, {0, 0, stress / 1e9, stress / 1e9}};
 }
 
-std::string cell(double value, double unit = 1, int digits = 4) {
-  return std::isfinite(value) ? fmt::format("{:.{}g}", value / unit, digits) : "–";
-}
+/// Of a table, in this unit.
+std::string cell(double value, double unit = 1, int digits = 4) { return table_cell(value / unit, digits); }
 
 double measure(const reports::Run* run, const std::string& name) {
   if (!run) return std::nan("");
   const auto found = run->measures.find(name);
   return found == run->measures.end() ? std::nan("") : found->second;
-}
-
-void widen(reports::Figure& figure, const reports::Curve& curve) {
-  for (const double y : curve.y)
-    if (std::isfinite(y)) {
-      figure.y_min = std::min(figure.y_min, y);
-      figure.y_max = std::max(figure.y_max, y);
-    }
 }
 
 std::vector<std::string> notes_of(const Case& c, const FigureSpec& spec, const PlateSpec& plate) {

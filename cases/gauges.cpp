@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "analytic/diffusion_front.hpp"
 #include "analytic/failure_point.hpp"
@@ -159,9 +160,11 @@ void measure_gauges(const Case& c, const Leaf& leaf, const PlateRecord& record, 
   if (plate.spread) measure_ahead(c, leaf, record, run);
   using Support = Edge::Support;
   const std::array strip{Support::free, Support::free, Support::roller, Support::roller};
-  const bool by_lattice = std::holds_alternative<material::PlaneElastic>(*plate.material) && !plate.compression &&
-                          !plate.viscosity && plate.pic == 0 && plate.loads.empty() && plate.body_force[0].empty() &&
-                          plate.supports == strip && symmetric(leaf.particles);
+  const bool by_waves = std::holds_alternative<material::PlaneElastic>(*plate.material) && !plate.compression &&
+                        !plate.viscosity && plate.pic == 0 && plate.loads.empty() && plate.body_force[0].empty() &&
+                        plate.supports == strip && symmetric(leaf.particles);
+  std::optional<analytic::ImpactLattice> lattice;
+  if (by_waves && !c.gauges.empty()) lattice.emplace(impact_lattice(plate, leaf, time_step));
   for (std::size_t g = 0; g < c.gauges.size(); ++g) {
     const GaugeSpec& gauge = c.gauges[g];
     const GaugeRecord& seen = record.gauges.at(g);
@@ -188,10 +191,9 @@ void measure_gauges(const Case& c, const Leaf& leaf, const PlateRecord& record, 
     put("failure",
         std::isfinite(theory.failed_lateral) ? first_passage(lateral, (elastic + theory.failed_lateral) / 2) : nothing,
         theory.failure);
-    if (!by_lattice) continue;
-    const analytic::ImpactLattice lattice(impact_lattice(plate, leaf, time_step));
+    if (!lattice) continue;
     History expected{seen.time,
-                     lattice.history(gauge.from_face + plate.flyer->thickness, static_cast<long>(seen.xx.size()))};
+                     lattice->history(gauge.from_face + plate.flyer->thickness, static_cast<long>(seen.xx.size()))};
     double apart = 0;
     for (std::size_t n = 0; n < seen.xx.size(); ++n) {
       raise(apart, std::abs(expected.value[n] - seen.xx[n]) / theory.plateau);

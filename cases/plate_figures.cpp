@@ -78,10 +78,6 @@ reports::PlateFigure blank(const Case& c, const FigureSpec& spec) {
   return figure;
 }
 
-std::string cell(double value, int digits = 3) {
-  return std::isfinite(value) ? fmt::format("{:.{}g}", value, digits) : "–";
-}
-
 }  // namespace
 
 NodalMap map_of(const reports::PlateFields& f, const std::string& field) {
@@ -263,8 +259,8 @@ void add_agreement(const Case& c, const FigureSpec& spec, reports::Case& result)
       const std::string what = check.what.substr(0, check.what.find(':'));
       table.rows.push_back({fmt::format("{}: {}", gate.id, what),
                             gate.quantity,
-                            {cell(check.value), check.predicted ? cell(*check.predicted) : "", cell(check.judged),
-                             cell(check.high), check.passed ? "pass" : "FAIL"},
+                            {table_cell(check.value), check.predicted ? table_cell(*check.predicted) : "",
+                             table_cell(check.judged), table_cell(check.high), check.passed ? "pass" : "FAIL"},
                             ""});
     }
     if (gate.checks.empty())
@@ -315,9 +311,9 @@ void add_choices(const Case& c, const FigureSpec& spec, const std::vector<report
       }
       any = true;
       const NodalMap map = map_of(*fields, spec.field);
-      row.values.push_back(cell(radius_along(map, level, 45)));
-      row.values.push_back(cell(area_above(map, level)));
-      row.values.push_back(cell(*std::max_element(map.value.begin(), map.value.end())));
+      row.values.push_back(table_cell(radius_along(map, level, 45)));
+      row.values.push_back(table_cell(area_above(map, level)));
+      row.values.push_back(table_cell(*std::max_element(map.value.begin(), map.value.end())));
       add_contours(map, spec.levels, kind_of_method(method), panel);
     }
     if (any) {

@@ -253,8 +253,8 @@ class Body {
     close_rows(kick.length);
     move_platens(kick.length);
     drive_supports((static_cast<double>(n) + 0.5) * dt_);
-    if (ledger) keep_work(kick.length, *ledger);
     if (ledger) {
+      keep_work(kick.length, *ledger);
       measure_energies();
       if constexpr (viscous) ledger->take_by_viscosity(viscous_work());
     }
@@ -713,12 +713,10 @@ class Body {
     evolution_->advance(volumetric_, dt_);
   }
 
-  /// A ceiling that is NaN stays it: the wave has blown up.
   void spread_dilatancy() {
     for_bands([&](Band& band) {
       for (Index cell = band.begin * nx_; cell < band.end * nx_; ++cell) {
-        const Tensor mean = mean_strain(at(corners_.u, middles_.u, cell % nx_, cell / nx_), h_);
-        ceiling_[cell] = failure().equivalent_stress(mean) <= failure().threshold ? 0 : failure().ceiling(mean);
+        ceiling_[cell] = failure().open_ceiling(mean_strain(at(corners_.u, middles_.u, cell % nx_, cell / nx_), h_));
       }
     });
     dilatancy_->advance(ceiling_, dt_);

@@ -55,17 +55,8 @@ double limit(const material::PlaneElastic& solid, const CellSize& h, const Cells
 
 double critical_time_step(const Plate& plate, const Cells& cells) {
   const CellSize h{plate.width / cells.x, plate.height / cells.y};
-  material::PlaneElastic solid = elastic(plate);
-  double density_times_viscosity = 0;
-  if (plate.viscosity) {
-    const double speed = solid.pressure_wave_speed();
-    density_times_viscosity = solid.density * speed * std::sqrt(h.x * h.y) * plate.viscosity->strength(speed, 0);
-  }
-  if (const auto* failure = std::get_if<material::FailureWave>(&plate.material)) {
-    solid.youngs_modulus *= failure->stiffening();
-  }
-  return material::viscous_time_step(solid, density_times_viscosity,
-                                     [&](const material::PlaneElastic& s) { return limit(s, h, cells); });
+  return material::plate_time_step(plate, h.x * h.y,
+                                   [&](const material::PlaneElastic& solid) { return limit(solid, h, cells); });
 }
 
 }  // namespace diptych::fem

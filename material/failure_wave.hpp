@@ -39,6 +39,10 @@ struct FailureWave {
     if (p <= 0) return 0 * W;  // NaN stays it
     return (std::sqrt(p * p + 2 * K * most_converted * W) - p) / K;
   }
+  /// The ceiling where damage may spread, and 0 where the shear is below the threshold, ahead of the shock; NaN of NaN.
+  double open_ceiling(const Tensor& strain) const {
+    return equivalent_stress(strain) <= threshold ? 0 : ceiling(strain);
+  }
   /// f, the part of the shear energy that has been converted.
   double converted(const Tensor& strain, double dilatancy) const {
     if (dilatancy == 0) return 0;

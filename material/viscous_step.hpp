@@ -1,7 +1,11 @@
 // What a lagged artificial viscosity leaves of the time step of a plate.
 #pragma once
 
+#include <cmath>
+#include <variant>
+
 #include "material/plane.hpp"
+#include "material/plate.hpp"
 
 namespace diptych::material {
 
@@ -48,6 +52,20 @@ double viscous_time_step(const PlaneElastic& solid, double density_times_viscosi
     }
   }
   return high * (1 - tolerance);
+}
+
+/// Largest time step of a plate whose cells have this area [m²], with what a failure wave stiffens and viscosity
+/// leaves. `limit` as above. ν = c √(h_x h_y) times the viscosity's strength.
+template <class Limit>
+double plate_time_step(const Plate& plate, double cell_area, Limit limit) {
+  PlaneElastic solid = elastic(plate);
+  double density_times_viscosity = 0;
+  if (plate.viscosity) {
+    const double speed = solid.pressure_wave_speed();
+    density_times_viscosity = solid.density * speed * std::sqrt(cell_area) * plate.viscosity->strength(speed, 0);
+  }
+  if (const auto* failure = std::get_if<FailureWave>(&plate.material)) solid.youngs_modulus *= failure->stiffening();
+  return viscous_time_step(solid, density_times_viscosity, limit);
 }
 
 }  // namespace diptych::material

@@ -151,9 +151,7 @@ class Law {
   void dilate(std::span<const double> dilatancy) { dilatancy_ = dilatancy; }
 
   /// What a cell shows of its mean strain to the spread of its dilatancy; NaN of NaN.
-  double ceiling(const material::Tensor& mean) const {
-    return failure_.equivalent_stress(mean) <= failure_.threshold ? 0 : failure_.ceiling(mean);
-  }
+  double ceiling(const material::Tensor& mean) const { return failure_.open_ceiling(mean); }
 
   std::size_t bytes() const {
     return plastic_strain_.bytes() +

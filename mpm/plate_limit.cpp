@@ -199,16 +199,9 @@ double limit_of(const material::PlaneElastic& solid, const Plate& plate, const C
 }  // namespace
 
 double critical_time_step(const Plate& plate, const Cells& cells, const std::vector<double>& positions, Scheme scheme) {
-  material::PlaneElastic solid = elastic(plate);
-  double density_times_viscosity = 0;
-  if (plate.viscosity) {
-    const double speed = solid.pressure_wave_speed(), area = (plate.width / cells.x) * (plate.height / cells.y);
-    density_times_viscosity = solid.density * speed * std::sqrt(area) * plate.viscosity->strength(speed, 0);
-  }
-  if (const auto* failure = std::get_if<material::FailureWave>(&plate.material))
-    solid.youngs_modulus *= failure->stiffening();
-  return material::viscous_time_step(solid, density_times_viscosity, [&](const material::PlaneElastic& stiffer) {
-    return limit_of(stiffer, plate, cells, positions, scheme);
+  const double area = (plate.width / cells.x) * (plate.height / cells.y);
+  return material::plate_time_step(plate, area, [&](const material::PlaneElastic& solid) {
+    return limit_of(solid, plate, cells, positions, scheme);
   });
 }
 

@@ -10,6 +10,7 @@
 #include "fem/cell.hpp"
 #include "fem/plate.hpp"
 #include "material/viscous_step.hpp"
+#include "tests/plate_records.hpp"
 
 using namespace diptych;
 using material::FailureWave;
@@ -50,15 +51,6 @@ diffusion::Spread spread_from(int face) {
   return spread;
 }
 
-Stepping steps_of(double time_step, long steps, Books books = Books::lines) {
-  Stepping stepping;
-  stepping.time_step = time_step;
-  stepping.steps = steps;
-  stepping.sample_after = {steps};
-  stepping.books = books;
-  return stepping;
-}
-
 PlateRecord run(const Plate& plate, const Cells& cells, const Stepping& stepping,
                 const std::optional<diffusion::Spread>& spread = std::nullopt) {
   return fem::run(plate, cells, std::nullopt, stepping, spread);
@@ -68,12 +60,6 @@ PlateRecord run(const Plate& plate, const Cells& cells, const Stepping& stepping
 Vector shaken(double x, double y) {
   const auto part = [](double z) { return z - std::floor(z); };
   return {2 * part(1234.5 * x + 777.7 * y + 99.9 * x * y) - 1, 2 * part(555.5 * x - 888.8 * y + 44.4 * x * x) - 1};
-}
-
-double largest(const std::vector<double>& values) {
-  double most = 0;
-  for (const double v : values) most = std::isnan(v) ? v : std::max(most, std::abs(v));
-  return most;
 }
 
 void same_bits(const PlateRecord& a, const PlateRecord& b) {

@@ -9,6 +9,7 @@
 #include "fem/cell.hpp"
 #include "fem/plate.hpp"
 #include "fem/sweep.hpp"
+#include "tests/plate_records.hpp"
 
 using namespace diptych;
 using material::Plane;
@@ -37,15 +38,6 @@ Plate plate_of(double width, double height, Plane plane = Plane::strain, double 
   plate.height = height;
   plate.material = material::PlaneElastic{1e4, nu, 1, plane};
   return plate;
-}
-
-Stepping steps_of(double time_step, long steps, Books books = Books::lines) {
-  Stepping stepping;
-  stepping.time_step = time_step;
-  stepping.steps = steps;
-  stepping.sample_after = {steps};
-  stepping.books = books;
-  return stepping;
 }
 
 PlateRecord run(const Plate& plate, const Cells& cells, const Stepping& stepping) {

@@ -12,6 +12,7 @@
 #include "diffusion/dilatancy.hpp"
 #include "mpm/bar.hpp"
 #include "mpm/plate.hpp"
+#include "tests/plate_records.hpp"
 
 using namespace diptych;
 using mpm::Scheme;
@@ -85,13 +86,6 @@ Stepping stepping(Plate p, const Cells& cells, Scheme s, double part, long steps
   return how;
 }
 
-/// A run that was cut off has no samples.
-template <class AnyRecord>
-const auto& first(const AnyRecord& r) {
-  BOOST_TEST_CONTEXT(r.message) { BOOST_REQUIRE(!r.snapshots.empty()); }
-  return r.snapshots[0];
-}
-
 std::vector<std::vector<double>> fields(const PlateRecord& r) {
   std::vector<std::vector<double>> all;
   for (const PlateSnapshot& s : r.snapshots) {
@@ -112,12 +106,6 @@ std::vector<std::vector<double>> motion(const PlateRecord& r) {
   for (const PointField* f : {&s.displacement, &s.velocity, &s.stress})
     all.insert(all.end(), f->component.begin(), f->component.end());
   return all;
-}
-
-double largest(const std::vector<double>& values) {
-  double most = 0;
-  for (const double v : values) most = std::isnan(v) ? v : std::max(most, std::abs(v));
-  return most;
 }
 
 /// Largest |difference| in units of the second's largest value.

@@ -8,6 +8,7 @@
 
 #include "mpm/bar.hpp"
 #include "mpm/plate.hpp"
+#include "tests/plate_records.hpp"
 
 using namespace diptych;
 using mpm::Scheme;
@@ -55,13 +56,6 @@ PlateRecord run(const Plate& p, const Cells& cells, const std::vector<double>& x
   return mpm::run(p, cells, xi, s, std::nullopt, how);
 }
 
-/// A run that was cut off has no samples.
-template <class AnyRecord>
-const auto& first(const AnyRecord& r) {
-  BOOST_TEST_CONTEXT(r.message) { BOOST_REQUIRE(!r.snapshots.empty()); }
-  return r.snapshots[0];
-}
-
 std::vector<std::vector<double>> fields(const PlateRecord& r) {
   std::vector<std::vector<double>> all;
   for (const PlateSnapshot& s : r.snapshots) {
@@ -73,12 +67,6 @@ std::vector<std::vector<double>> fields(const PlateRecord& r) {
   }
   all.push_back(r.platen);
   return all;
-}
-
-double largest(const std::vector<double>& values) {
-  double most = 0;
-  for (const double v : values) most = std::isnan(v) ? v : std::max(most, std::abs(v));
-  return most;
 }
 
 /// Largest |difference| in units of the second's largest value.

@@ -674,13 +674,13 @@ add_test(NAME teeth.coverage
 set_tests_properties(teeth.coverage PROPERTIES LABELS teeth TIMEOUT 60)
 
 # --- a flyer, a failure wave, viscosity of plates -----------------------------------------------------------------------
-mutant(fem-failure-threshold-ignored FILE fem/plate.cpp
-  FIND    "failure().equivalent_stress(mean) <= failure().threshold ? 0 : failure().ceiling(mean)"
-  REPLACE "failure().equivalent_stress(mean) <= 0 * failure().threshold ? 0 : failure().ceiling(mean)"
+mutant(fem-failure-threshold-ignored FILE material/failure_wave.hpp SOURCES fem/plate.cpp
+  FIND    "equivalent_stress(strain) <= threshold ? 0"
+  REPLACE "equivalent_stress(strain) <= 0 * threshold ? 0"
   KILLS glass.extremes/no-failure glass.point/stress glass.wave/not-ahead glass.wave/settles-near-xx)
-mutant(mpm-failure-threshold-ignored FILE mpm/plate_law.hpp SOURCES mpm/plate.cpp
-  FIND    "failure_.equivalent_stress(mean) <= failure_.threshold ? 0"
-  REPLACE "failure_.equivalent_stress(mean) <= 0 * failure_.threshold ? 0"
+mutant(mpm-failure-threshold-ignored FILE material/failure_wave.hpp SOURCES mpm/plate.cpp
+  FIND    "equivalent_stress(strain) <= threshold ? 0"
+  REPLACE "equivalent_stress(strain) <= 0 * threshold ? 0"
   KILLS glass.extremes/no-failure glass.point/stress)
 mutant(failure-ahead-of-the-shock FILE diffusion/dilatancy.cpp
   FIND    "if (ceiling == 0) return spread_.ahead ? spread_.diffusivity : 0;"

@@ -1,0 +1,36 @@
+// What tests of plates make and read of runs.
+#pragma once
+
+#include <algorithm>
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <vector>
+
+#include "material/scene.hpp"
+
+namespace diptych {
+
+/// So many steps, with a sample after the last.
+inline Stepping steps_of(double time_step, long steps, Books books = Books::lines) {
+  Stepping stepping;
+  stepping.time_step = time_step;
+  stepping.steps = steps;
+  stepping.sample_after = {steps};
+  stepping.books = books;
+  return stepping;
+}
+
+/// A run that was cut off has no samples.
+template <class AnyRecord>
+const auto& first(const AnyRecord& r) {
+  BOOST_TEST_CONTEXT(r.message) { BOOST_REQUIRE(!r.snapshots.empty()); }
+  return r.snapshots[0];
+}
+
+inline double largest(const std::vector<double>& values) {
+  double most = 0;
+  for (const double v : values) most = std::isnan(v) ? v : std::max(most, std::abs(v));
+  return most;
+}
+
+}  // namespace diptych
