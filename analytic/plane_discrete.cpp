@@ -1,10 +1,12 @@
 #include "analytic/plane_discrete.hpp"
 
-#include <Eigen/Dense>
+#include <gsl/gsl_eigen.h>
+
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -15,11 +17,8 @@ namespace diptych::analytic {
 namespace {
 
 using Method = PlaneDiscretisation::Method;
-using Complex = std::complex<double>;
 using Eigen::Matrix2Xd;
-using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
-using Eigen::VectorXcd;
 using Eigen::VectorXd;
 constexpr double pi = std::numbers::pi;
 
@@ -128,23 +127,35 @@ Cell make_cell(const PlaneMedium& medium, const PlaneDiscretisation& d) {
 }
 
 // --- the lattice: waves exp(i k·x), with a polarisation for each kind of node
-// -------------------------------------------
+// ------------------------------------------
 
-/// Phases of a cell's nodes, and which kind of node each is: corners are all one kind, FEM's centres another.
-MatrixXcd phases(const Cell& cell, double kx, double ky) {
-  const auto nodes = static_cast<Eigen::Index>(cell.node.size());
-  MatrixXcd p = MatrixXcd::Zero(nodes, nodes == 5 ? 2 : 1);
+/// A complex matrix in real numbers, [Re −Im; Im Re]: products are products, and each eigenvalue of a Hermitian one
+/// stands there twice. Here the phases of a cell's nodes, and which kind of node each is: corners are all one kind,
+/// FEM's centres another.
+MatrixXd phases(const Cell& cell, double kx, double ky) {
+  const auto nodes = static_cast<Eigen::Index>(cell.node.size()), kinds = nodes == 5 ? Eigen::Index{2} : 1;
+  MatrixXd p = MatrixXd::Zero(2 * nodes, 2 * kinds);
   for (Eigen::Index j = 0; j < nodes; ++j) {
     const auto& [x, y] = cell.node[static_cast<std::size_t>(j)];
-    p(j, j < 4 ? 0 : 1) = std::polar(1.0, kx * x + ky * y);
+    const double phase = kx * x + ky * y;
+    const Eigen::Index kind = j < 4 ? 0 : 1;
+    p(j, kind) = p(nodes + j, kinds + kind) = std::cos(phase);
+    p(nodes + j, kind) = std::sin(phase);
+    p(j, kinds + kind) = -p(nodes + j, kind);
   }
   return p;
 }
 
+/// A matrix that acts on real and imaginary parts alike.
+MatrixXd on_both_parts(const MatrixXd& m) {
+  MatrixXd both = MatrixXd::Zero(2 * m.rows(), 2 * m.cols());
+  both.topLeftCorner(m.rows(), m.cols()) = both.bottomRightCorner(m.rows(), m.cols()) = m;
+  return both;
+}
+
 /// A matrix that acts on nodes, made to act on their x and y alike.
-template <class M>
-M on_both(const M& nodes) {
-  M both = M::Zero(2 * nodes.rows(), 2 * nodes.cols());
+MatrixXd on_both_axes(const MatrixXd& nodes) {
+  MatrixXd both = MatrixXd::Zero(2 * nodes.rows(), 2 * nodes.cols());
   for (Eigen::Index i = 0; i < nodes.rows(); ++i) {
     for (Eigen::Index j = 0; j < nodes.cols(); ++j) both(2 * i, 2 * j) = both(2 * i + 1, 2 * j + 1) = nodes(i, j);
   }
@@ -153,28 +164,31 @@ M on_both(const M& nodes) {
 
 /// M⁻¹K and what is left of an acceleration on its way to the particles and back, F = M⁻¹ Σ m N Nᵀ, both made Hermitian
 /// by M^½ from the left and M^−½ from the right.
-template <class M>
 struct Operators {
-  M rate, filter;
+  MatrixXd rate, filter;
   VectorXd root_mass;  ///< diagonal of M^½
 };
 
-template <class M>
-Operators<M> operators(const M& stiffness, const M& consistent, const VectorXd& mass) {
-  const VectorXd root = on_both<MatrixXd>(mass.asDiagonal().toDenseMatrix()).diagonal().cwiseSqrt();
+Operators operators(const MatrixXd& stiffness, const MatrixXd& consistent, const VectorXd& mass) {
+  VectorXd root(2 * mass.size());
+  for (Eigen::Index i = 0; i < mass.size(); ++i) root(2 * i) = root(2 * i + 1) = std::sqrt(mass(i));
   const VectorXd inverse = root.cwiseInverse();
   return {inverse.asDiagonal() * stiffness * inverse.asDiagonal(),
-          inverse.asDiagonal() * on_both(consistent) * inverse.asDiagonal(), root};
+          inverse.asDiagonal() * on_both_axes(consistent) * inverse.asDiagonal(), root};
 }
 
-Operators<MatrixXcd> lattice(const Cell& cell, double kx, double ky) {
-  const MatrixXcd p = phases(cell, kx, ky), both = on_both(p);
-  const VectorXd mass = p.cwiseAbs2().transpose() * cell.mass;
-  return operators<MatrixXcd>(both.adjoint() * cell.stiffness * both, p.adjoint() * cell.consistent * p, mass);
+/// In real numbers, as phases() are.
+Operators lattice(const Cell& cell, double kx, double ky) {
+  const MatrixXd p = phases(cell, kx, ky), both = on_both_axes(p);
+  const MatrixXd stiffness = on_both_parts(cell.stiffness), consistent = on_both_parts(cell.consistent);
+  VectorXd twice(2 * cell.mass.size());
+  twice << cell.mass, cell.mass;
+  return operators(both.transpose() * stiffness * both, p.transpose() * consistent * p,
+                   p.cwiseAbs2().transpose() * twice);
 }
 
 /// nx × ny cells without supports.
-Operators<MatrixXd> rectangle(const Cell& cell, int nx, int ny) {
+Operators rectangle(const Cell& cell, int nx, int ny) {
   const int corners = (nx + 1) * (ny + 1), nodes = corners + (cell.node.size() == 5 ? nx * ny : 0);
   MatrixXd stiffness = MatrixXd::Zero(2 * nodes, 2 * nodes), consistent = MatrixXd::Zero(nodes, nodes);
   VectorXd mass = VectorXd::Zero(nodes);
@@ -194,21 +208,38 @@ Operators<MatrixXd> rectangle(const Cell& cell, int nx, int ny) {
       }
     }
   }
-  return operators<MatrixXd>(stiffness, consistent, mass);
+  return operators(stiffness, consistent, mass);
+}
+
+/// Eigenvalues of a symmetric matrix and, in columns, its eigenvectors.
+struct Spectrum {
+  VectorXd values;
+  MatrixXd vectors;
+};
+
+Spectrum spectrum_of(MatrixXd a) {
+  const Eigen::Index n = a.rows();
+  const auto size = static_cast<std::size_t>(n);
+  Spectrum found{VectorXd(n), MatrixXd(n, n)};
+  gsl_matrix_view matrix = gsl_matrix_view_array(a.data(), size, size);
+  gsl_matrix_view vectors = gsl_matrix_view_array(found.vectors.data(), size, size);
+  gsl_vector_view values = gsl_vector_view_array(found.values.data(), size);
+  const std::unique_ptr<gsl_eigen_symmv_workspace, void (*)(gsl_eigen_symmv_workspace*)> space(
+      gsl_eigen_symmv_alloc(size), gsl_eigen_symmv_free);
+  gsl_eigen_symmv(&matrix.matrix, &values.vector, &vectors.matrix, space.get());
+  found.vectors.transposeInPlace();  // GSL stores rows one after the other
+  return found;
 }
 
 /// Largest Δt, from the largest eigenvalue of F A (A = M⁻¹K), of which leapfrog bears (ωΔt)² = 4. USL: with w the
 /// strain's displacement and V the velocity, w′ = w + Δt V − Δt² A w, V′ = V − Δt F A w, so (z−1)² w = −Δt² F A w −
 /// (z−1) Δt² A w. Waves leave the unit circle at z = −1, where 4 w = Δt² (2 − F) A w.
-template <class M>
-double limit(const Operators<M>& o, Method method) {
-  const Eigen::SelfAdjointEigenSolver<M> rates(o.rate);
-  const VectorXd roots = rates.eigenvalues().cwiseMax(0).cwiseSqrt();
-  const M root = rates.eigenvectors() * roots.asDiagonal();
-  M middle = o.filter;
-  if (method == Method::usl) middle = 2 * M::Identity(root.rows(), root.cols()) - o.filter;
-  const Eigen::SelfAdjointEigenSolver<M> squares(root.adjoint() * middle * root, Eigen::EigenvaluesOnly);
-  const double largest = squares.eigenvalues().maxCoeff();
+double limit(const Operators& o, Method method) {
+  const Spectrum rates = spectrum_of(o.rate);
+  const MatrixXd root = rates.vectors * rates.values.cwiseMax(0).cwiseSqrt().asDiagonal();
+  MatrixXd middle = o.filter;
+  if (method == Method::usl) middle = 2 * MatrixXd::Identity(root.rows(), root.cols()) - o.filter;
+  const double largest = spectrum_of(root.transpose() * middle * root).values.maxCoeff();
   return largest > 0 ? 2 / std::sqrt(largest) : std::numeric_limits<double>::infinity();
 }
 
@@ -372,12 +403,12 @@ std::optional<double> predicted_error(const PlaneSolution& solution, const Plane
   const long steps = steps_at(d, quantity, t);
 
   const Cell cell = make_cell(mode->medium(), d);
-  const MatrixXcd phase = phases(cell, kx, ky);
-  const Eigen::Index kinds = phase.cols();
-  const auto o = lattice(cell, kx, ky);
-  // Cells are their own image turned by half a turn, so that nothing here is complex.
-  const MatrixXd rate = o.root_mass.cwiseInverse().asDiagonal() * o.rate.real() * o.root_mass.asDiagonal();
-  const MatrixXd filter = o.root_mass.cwiseInverse().asDiagonal() * o.filter.real() * o.root_mass.asDiagonal();
+  const Operators o = lattice(cell, kx, ky);
+  // Cells are their own image turned by half a turn, so that nothing here is complex: the real part is all.
+  const Eigen::Index real = o.rate.rows() / 2, kinds = real / 2;
+  const VectorXd root = o.root_mass.head(real), inverse = root.cwiseInverse();
+  const MatrixXd rate = inverse.asDiagonal() * o.rate.topLeftCorner(real, real) * root.asDiagonal();
+  const MatrixXd filter = inverse.asDiagonal() * o.filter.topLeftCorner(real, real) * root.asDiagonal();
   const Standing wave(mode->wave());
   const VectorXd zero = VectorXd::Zero(2 * kinds);
   const bool rest = mode->wave().from_rest;
@@ -385,9 +416,9 @@ std::optional<double> predicted_error(const PlaneSolution& solution, const Plane
   if (d.method != Method::fem) {  // what nodes are mapped of particles that have the wave's own values
     double mapped = 0;
     for (const auto& place : cell.place) {
-      mapped += (std::polar(place.area / (d.hx * d.hy), kx * place.x + ky * place.y) *
-                 (phase.col(0).adjoint() * place.shape.cast<Complex>())(0))
-                    .real();
+      for (std::size_t j = 0; j < cell.node.size(); ++j)
+        mapped += place.area / (d.hx * d.hy) * place.shape(static_cast<Eigen::Index>(j)) *
+                  std::cos(kx * (place.x - cell.node[j][0]) + ky * (place.y - cell.node[j][1]));
     }
     velocity *= mapped;
   }

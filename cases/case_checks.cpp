@@ -1,6 +1,6 @@
 #include "cases/case_checks.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
@@ -504,7 +504,7 @@ void check_agreement(Table& t, const GateSpec& gate, const Case& c) {
   const Place place = t.place("where");
   if (otherwise.size() > 1)
     place.say(fmt::format("found runs that differ in more than method and mesh ({}); allowed: one of them, in where",
-                          fmt::join(otherwise, "; ")));
+                          listed(otherwise, "; ")));
   if (meshes.size() != 2)
     place.say(fmt::format("found {} methods; allowed: two, fem and one of MPM", meshes.size()));
   else if (meshes.begin()->second != std::next(meshes.begin())->second)
@@ -529,7 +529,7 @@ void check_settling(Table& t, const GateSpec& gate, const Case& c) {
   for (const auto& [method, runs] : otherwise)
     if (runs.size() > 1)
       place.say(fmt::format("found runs of {} that differ in more than the mesh ({}); allowed: one of them, in where",
-                            method, fmt::join(runs, "; ")));
+                            method, listed(runs, "; ")));
   for (const auto& [method, cells] : meshes)
     if (cells.size() < 4) place.say(fmt::format("found {} meshes of {}; allowed: at least 4", cells.size(), method));
 }

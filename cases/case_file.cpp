@@ -1,7 +1,7 @@
 // The schema of case files as the program reads it: one function per table, top to bottom as in cases/README.md.
 #include "cases/case_file.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cctype>
@@ -60,8 +60,8 @@ void read_parameters(Table& t, Case& c) {
     if (!is_name)
       t.place(name).say("found " + words(name) + " as a name; allowed: letters, digits and _, no digit first");
     else if (!is_free)
-      t.place(name).say(fmt::format("found a name that expressions have already; allowed: other names than {}",
-                                    fmt::join(reserved, ", ")));
+      t.place(name).say(
+          fmt::format("found a name that expressions have already; allowed: other names than {}", listed(reserved)));
     const double number = t.get(name, any_number(), 0.7);
     if (is_name && is_free) c.parameters[name] = number;
   }

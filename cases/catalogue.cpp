@@ -1,6 +1,6 @@
 #include "cases/catalogue.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <fnmatch.h>
 
 #include <algorithm>
@@ -42,7 +42,7 @@ Case only(Case c, const std::string& gate) {
   std::erase_if(c.gates, [&](const GateSpec& g) { return g.id != gate; });
   if (c.gates.empty()) {
     const std::string near = nearest(gate, ids);
-    throw InputError(fmt::format("case {} has no gate '{}'; it has: {}{}", c.id, gate, fmt::join(ids, ", "),
+    throw InputError(fmt::format("case {} has no gate '{}'; it has: {}{}", c.id, gate, listed(ids),
                                  near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near)));
   }
   return c;
@@ -122,7 +122,7 @@ std::string declarations(const std::vector<Case>& cases) {
     for (const GateSpec& gate : c.gates) lines.push_back(fmt::format("{}/{} {}\n", c.id, gate.id, gate.declaration));
   }
   std::sort(lines.begin(), lines.end());
-  return fmt::format("{}", fmt::join(lines, ""));
+  return listed(lines, "");
 }
 
 std::vector<std::string> differences_from_lock(const std::vector<Case>& cases, bool whole) {

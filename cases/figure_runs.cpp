@@ -1,6 +1,6 @@
 #include "cases/figure_runs.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cctype>

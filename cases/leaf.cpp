@@ -1,8 +1,10 @@
 #include "cases/leaf.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
+
+#include "cases/messages.hpp"
 
 namespace diptych::cases {
 namespace {
@@ -84,8 +86,6 @@ std::string parameters_label(const Leaf& leaf) {
   return leaf.variant + (leaf.variant.empty() || parameters.empty() ? "" : " ") + parameters;
 }
 
-std::string particles_label(const std::vector<double>& positions) {
-  return fmt::format("{}", fmt::join(positions, " "));
-}
+std::string particles_label(const std::vector<double>& positions) { return listed(positions, " "); }
 
 }  // namespace diptych::cases

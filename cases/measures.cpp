@@ -1,9 +1,11 @@
 #include "cases/measures.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
+
+#include "cases/messages.hpp"
 
 namespace diptych::cases {
 
@@ -66,8 +68,7 @@ std::string why_invalid(const Case& c, const std::vector<std::string>& active, c
                         const reports::Run& run) {
   if (!run.finite) return "a number is not finite";
   if (active != declared) {
-    return fmt::format("active features [{}] are not the declared [{}]", fmt::join(active, ", "),
-                       fmt::join(declared, ", "));
+    return fmt::format("active features [{}] are not the declared [{}]", listed(active), listed(declared));
   }
   if (run.samples.size() != c.times.size()) {
     return fmt::format("{} of {} sample times were reached", run.samples.size(), c.times.size());

@@ -1,6 +1,9 @@
 // Words for messages: what was found, what is allowed, the nearest valid name.
 #pragma once
 
+#include <fmt/core.h>
+
+#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -24,6 +27,14 @@ template <class Value>
 std::string joined(const std::vector<Value>& values) {
   std::string out;
   for (const Value& value : values) out += (out.empty() ? "" : ", ") + words(value);
+  return out;
+}
+
+/// Values as fmt writes them, with `between` each two. (fmt::join is compiled anew wherever it is called.)
+template <class Values>
+std::string listed(const Values& values, const char* between = ", ") {
+  std::string out;
+  for (const auto& value : values) out += (&value == &*std::begin(values) ? "" : between) + fmt::format("{}", value);
   return out;
 }
 

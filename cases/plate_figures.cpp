@@ -1,12 +1,13 @@
 #include "cases/plate_figures.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "cases/figure_runs.hpp"
 #include "cases/leaf.hpp"
+#include "cases/messages.hpp"
 #include "cases/plate_build.hpp"
 
 namespace diptych::cases {
@@ -91,7 +92,7 @@ reports::PlateFigure contour_figure(const Case& c, const FigureSpec& spec, const
                       fmt::format("{} × {} cells; four triangles a cell (FEM), particles at ξ, η = {} (MPM); Courant "
                                   "number {:g}; levels of {}: {}",
                                   cells.x, cells.y, particles_label(spec.particles), spec.courant,
-                                  symbol_of(spec.field), fmt::join(spec.levels, ", ")));
+                                  symbol_of(spec.field), listed(spec.levels)));
   const std::string symbol = symbol_of(spec.field);
   const auto& times = spec.times.empty() ? c.times : spec.times;
   figure.columns = static_cast<int>(spec.methods.size()) + (spec.methods.size() == 2 ? 1 : 0);

@@ -1,5 +1,5 @@
 // The schema of a plate's tables as the program reads it, top to bottom as in cases/README.md.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

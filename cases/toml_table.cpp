@@ -1,9 +1,11 @@
 #include "cases/toml_table.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <toml++/toml.h>
 
 #include <cmath>
+
+#include "cases/messages.hpp"
 
 namespace diptych::cases {
 namespace {
@@ -37,13 +39,13 @@ std::string declared(const Node& node) {
   if (!list) return words(node);
   Names values;
   for (const Node& one : *list) values.push_back(declared(one));
-  return fmt::format("[{}]", fmt::join(values, " "));
+  return '[' + listed(values, " ") + ']';
 }
 
 std::string declared(const Node::Entries& entries) {
   Names values;
   for (const Node::Entry& one : entries) values.push_back(one.key + '=' + declared(one.value));
-  return fmt::format("{}", fmt::join(values, " "));
+  return listed(values, " ");
 }
 
 Rule<double> finite(const std::string& range, bool (*within)(double), const std::string& hint = "") {
@@ -246,9 +248,9 @@ void Table::refuse_other_keys() const {
     if (key == "time_step" || key == "dt" || key == "timestep")
       hint = "the time step is courant * cell size / wave speed: set axes.courant, > 0";
     const bool nested = value.as<Node::List>() || value.as<Node::Entries>();
-    Place{place_.mistakes, &value, at, prefix_ + key}.say(
-        fmt::format("found an unknown key{}; allowed: {}{}{}", nested ? "" : " (= " + words(value) + ")",
-                    fmt::join(known_, ", "), hint.empty() ? "" : "; ", hint));
+    Place{place_.mistakes, &value, at, prefix_ + key}.say(fmt::format("found an unknown key{}; allowed: {}{}{}",
+                                                                      nested ? "" : " (= " + words(value) + ")",
+                                                                      listed(known_), hint.empty() ? "" : "; ", hint));
   }
 }
 
@@ -267,7 +269,7 @@ void read_toml(const std::string& toml, const std::string& name, const Table::Re
   Names lines;
   for (const auto& [at, message] : mistakes)
     lines.push_back(fmt::format("{}:{}:{}: {}", name, at.line, at.column, message));
-  if (!lines.empty()) throw InputError(fmt::format("{}", fmt::join(lines, "\n")));
+  if (!lines.empty()) throw InputError(listed(lines, "\n"));
 }
 
 }  // namespace diptych::cases

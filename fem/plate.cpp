@@ -1,9 +1,5 @@
 #include "fem/plate.hpp"
 
-#include <tbb/parallel_for.h>
-#include <tbb/partitioner.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -12,6 +8,7 @@
 #include "fem/cell.hpp"
 #include "fem/sweep.hpp"
 #include "material/stepping.hpp"
+#include "material/threads.hpp"
 
 namespace diptych::fem {
 namespace {
@@ -205,7 +202,7 @@ class Body {
         middles_(nx_, ny_),
         loops_(loops(static_cast<bool>(plate.body_force))),
         sums_(ny_ + 1),
-        arena_(std::clamp(stepping.threads, 1, tbb::this_task_arena::max_concurrency())) {
+        threads_(stepping.threads) {
     make_bands(static_cast<Index>(std::max(1, stepping.threads)));
     make_border();
     if (plate.body_force) {
@@ -1018,14 +1015,7 @@ class Body {
   /// One task for each band; the same bits for any number of them.
   template <class Do>
   void for_bands(Do act) {
-    if (bands_.size() == 1) {
-      act(bands_.front());
-      return;
-    }
-    arena_.execute([&] {
-      tbb::parallel_for(
-          Index{0}, bands_.size(), [&](Index k) { act(bands_[k]); }, tbb::static_partitioner{});
-    });
+    threads_.for_each(bands_.size(), [&](Index k) { act(bands_[k]); });
   }
 
   const Plate& plate_;
@@ -1060,7 +1050,7 @@ class Body {
   std::vector<double> recoverable_;  // per cell, likewise [J/m]
   std::vector<unsigned char> answered_;
   double body_work_rate_ = 0;
-  tbb::task_arena arena_;
+  Threads threads_;
 };
 
 template <Kind kind>

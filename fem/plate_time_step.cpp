@@ -1,10 +1,11 @@
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "fem/cell.hpp"
 #include "fem/plate.hpp"
+#include "material/eigenvalues.hpp"
 #include "material/viscous_step.hpp"
 
 namespace diptych::fem {
@@ -30,25 +31,25 @@ double limit(const material::PlaneElastic& solid, const CellSize& h, const Cells
     columns[k] = internal_forces(stress, h);
   }
 
-  const Eigen::Index freedoms = 2 * (corners + nx * ny);
-  Eigen::MatrixXd dynamic = Eigen::MatrixXd::Zero(freedoms, freedoms);  // K, then M^-½ K M^-½
-  Eigen::VectorXd mass = Eigen::VectorXd::Zero(freedoms);
+  const auto freedoms = static_cast<std::size_t>(2 * (corners + nx * ny));
+  material::SymmetricMatrix dynamic(freedoms);  // K, then M^-½ K M^-½
+  std::vector<double> mass(freedoms);
   for (int j = 0; j < ny; ++j) {
     for (int i = 0; i < nx; ++i) {
       const int a = j * (nx + 1) + i, d = a + nx + 1;
       const std::array<int, 5> node{a, a + 1, d + 1, d, corners + j * nx + i};
-      const auto place = [&](std::size_t k) { return 2 * node[k / 2] + static_cast<int>(k % 2); };
+      const auto place = [&](std::size_t k) { return 2 * static_cast<std::size_t>(node[k / 2]) + k % 2; };
       for (std::size_t k = 0; k < 10; ++k) {
         for (std::size_t l = 0; l < 10; ++l) dynamic(place(l), place(k)) -= columns[k][l / 2][l % 2];
         mass[place(k)] += cell_mass / (k < 8 ? 6 : 3);
       }
     }
   }
-  const Eigen::VectorXd over_root = mass.cwiseSqrt().cwiseInverse();
-  dynamic = over_root.asDiagonal() * dynamic * over_root.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(dynamic, Eigen::EigenvaluesOnly);
+  for (std::size_t k = 0; k < freedoms; ++k) {
+    for (std::size_t l = 0; l < freedoms; ++l) dynamic(k, l) *= 1 / std::sqrt(mass[k]) * (1 / std::sqrt(mass[l]));
+  }
   const bool larger = cells.x > enough || cells.y > enough;
-  return (larger ? 1 - margin : 1) * 2 / std::sqrt(modes.eigenvalues()[freedoms - 1]);
+  return (larger ? 1 - margin : 1) * 2 / std::sqrt(material::largest_eigenvalue(dynamic));
 }
 
 }  // namespace

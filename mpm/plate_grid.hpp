@@ -1,19 +1,15 @@
 // The background grid of the plate: 4-node cells, what supports do to its nodes, and how cells' shares add up on them.
 #pragma once
 
-#include <oneapi/tbb/info.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <memory>
 #include <utility>
 #include <vector>
 
 #include "material/plate.hpp"
+#include "material/threads.hpp"
 
 namespace diptych::mpm {
 
@@ -113,7 +109,7 @@ struct Band {
 /// the row below gives) + (what the row above gives), and each of the two is (left cell) + (right cell).
 class Bands {
  public:
-  Bands(std::size_t rows, std::size_t row_length, int threads) {
+  Bands(std::size_t rows, std::size_t row_length, int threads) : threads_(threads) {
     const std::size_t count = std::min(rows, static_cast<std::size_t>(std::max(1, threads)));
     bands_.resize(count);
     for (std::size_t b = 0; b < count; ++b) {
@@ -128,19 +124,11 @@ class Bands {
         }
       }
     }
-    if (count > 1) {
-      const int at_hand = std::min(static_cast<int>(count), tbb::info::default_concurrency());
-      arena_ = std::make_unique<tbb::task_arena>(at_hand);
-    }
   }
 
   template <class F>
   void for_each(F&& f) {
-    if (!arena_) {
-      f(bands_[0]);
-      return;
-    }
-    arena_->execute([&] { tbb::parallel_for(std::size_t{0}, bands_.size(), [&](std::size_t b) { f(bands_[b]); }); });
+    threads_.for_each(bands_.size(), [&](std::size_t b) { f(bands_[b]); });
   }
 
   /// Calls cells(j, band) for each row of cells, which leaves what they give to their nodes in band.shares, and
@@ -183,7 +171,7 @@ class Bands {
 
  private:
   std::vector<Band> bands_;
-  std::unique_ptr<tbb::task_arena> arena_;
+  Threads threads_;
 };
 
 /// Holds the grid's sides in velocity and acceleration. Supports reach along the whole side of the grid.

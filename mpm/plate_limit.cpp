@@ -6,19 +6,18 @@
 // (1 + F) q = (x/2)(1 + F − W) A q, x = Δt². So Δt = 2/√λ with λ the largest eigenvalue of φ(W) A, and φ(w) = 2w/(1 +
 // f), with USL 2(1 + f − w)/(1 + f). Without PIC f = 1: φ = w and 2 − w. For USF and MUSL and for USL without PIC the
 // condition is sufficient too: the quadratic form of any eigenvector is a real quadratic with its roots in the circle.
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
+#include <vector>
 
+#include "material/eigenvalues.hpp"
 #include "material/viscous_step.hpp"
 #include "mpm/plate.hpp"
 
 namespace diptych::mpm {
 namespace {
-
-using Matrix = Eigen::MatrixXd;
 
 constexpr double edge = 0.5 - 0x1p-54;  // as the particles are placed
 
@@ -71,98 +70,131 @@ double interior(const Setting& s, bool anywhere) {
   return largest;
 }
 
+/// What a degree of freedom of a block is part of: an unknown, and how much of it; none where it is held.
+struct Share {
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+  std::size_t unknown = none;
+  double part = 1;
+};
+
+/// The unknowns of a block of nx × ny cells as its supports leave them, those along x first; count: how many of x and
+/// y. A platen's nodes move as one: with displacements scaled by √M they have parts in proportion to √M of one unknown
+/// of unit length.
+std::vector<Share> unknowns_of(const Plate& plate, bool free, int nx, int ny, const std::vector<double>& mass,
+                               std::array<std::size_t, 2>& count) {
+  const std::array<Side, 4> sides{Side::left, Side::right, Side::bottom, Side::top};
+  std::vector<Share> shares(2 * mass.size());
+  std::size_t next = 0;
+  for (std::size_t c = 0; c < 2; ++c) {
+    std::array<double, 4> platen_mass{};
+    std::array<std::vector<std::size_t>, 4> platen;
+    for (int j = 0; j <= ny; ++j) {
+      for (int i = 0; i <= nx; ++i) {
+        const std::array<bool, 4> there{i == 0, i == nx, j == 0, j == ny};
+        const std::size_t node = static_cast<std::size_t>(j * (nx + 1) + i), freedom = 2 * node + c;
+        bool held = false;
+        std::size_t on = 4;
+        for (std::size_t side = 4; side-- > 0;) {  // a corner goes with the first of its sides
+          if (!there[side] || free) continue;
+          const auto support = plate.edge(sides[side]).support;
+          const bool across = (side < 2) == (c == 0);
+          held = held || support == Edge::Support::fixed || support == Edge::Support::driven ||
+                 (support == Edge::Support::roller && across);
+          if (support == Edge::Support::platen && across) on = side;
+        }
+        if (held) continue;
+        if (on == 4) {
+          shares[freedom].unknown = next++;
+        } else {
+          platen[on].push_back(freedom);
+          platen_mass[on] += mass[node];
+        }
+      }
+    }
+    for (std::size_t side = 0; side < 4; ++side) {
+      if (platen[side].empty()) continue;
+      for (const std::size_t freedom : platen[side])
+        shares[freedom] = {next, std::sqrt(mass[freedom / 2] / platen_mass[side])};
+      ++next;
+    }
+    count[c] = next - (c == 0 ? 0 : count[0]);
+  }
+  return shares;
+}
+
 /// λ of a block of cells with these supports. Its matrices are made symmetric by √M.
 double block(const Setting& s, const Plate& plate, bool free, int nx, int ny) {
-  const std::size_t n = s.near.size();
-  const Eigen::Index row = nx + 1, nodes = row * (ny + 1), size = 2 * nodes;
+  const std::size_t n = s.near.size(), row = static_cast<std::size_t>(nx) + 1;
   const double volume = s.hx * s.hy / static_cast<double>(n * n), mass = volume * s.density;
-  Eigen::VectorXd M = Eigen::VectorXd::Zero(nodes);
-  Matrix W = Matrix::Zero(nodes, nodes), K = Matrix::Zero(size, size);
-  Matrix C(3, 3);
-  C << s.stiffness.normal, s.stiffness.cross, 0, s.stiffness.cross, s.stiffness.normal, 0, 0, 0, s.stiffness.shear;
-  for (int j = 0; j < ny; ++j) {
-    for (int i = 0; i < nx; ++i) {
-      const Eigen::Index first = j * row + i;
-      const std::array<Eigen::Index, 4> node{first, first + 1, first + row, first + row + 1};
-      for (std::size_t p = 0; p < n * n; ++p) {
-        const double l = s.near[p % n], r = s.far[p % n], b = s.near[p / n], t = s.far[p / n];
-        const std::array<double, 4> N{l * b, r * b, l * t, r * t};
-        const std::array<double, 4> dx{-b / s.hx, b / s.hx, -t / s.hx, t / s.hx};
-        const std::array<double, 4> dy{-l / s.hy, -r / s.hy, l / s.hy, r / s.hy};
-        Matrix B = Matrix::Zero(3, 8);
-        for (std::size_t k = 0; k < 4; ++k) {
-          const auto c = static_cast<Eigen::Index>(2 * k);
-          B(0, c) = B(2, c + 1) = dx[k];
-          B(1, c + 1) = B(2, c) = dy[k];
-          M(node[k]) += mass * N[k];
-          for (std::size_t q = 0; q < 4; ++q) W(node[k], node[q]) += mass * N[k] * N[q];
-        }
-        const Matrix cell = volume * (B.transpose() * C * B);
-        for (Eigen::Index k = 0; k < 8; ++k) {
-          for (Eigen::Index q = 0; q < 8; ++q)
-            K(2 * node[static_cast<std::size_t>(k / 2)] + k % 2, 2 * node[static_cast<std::size_t>(q / 2)] + q % 2) +=
-                cell(k, q);
-        }
+  struct Place {
+    std::array<double, 4> shape, x, y;  // N, ∂N/∂x, ∂N/∂y
+  };
+  std::vector<Place> places;
+  for (std::size_t p = 0; p < n * n; ++p) {
+    const double l = s.near[p % n], r = s.far[p % n], b = s.near[p / n], t = s.far[p / n];
+    places.push_back({{l * b, r * b, l * t, r * t},
+                      {-b / s.hx, b / s.hx, -t / s.hx, t / s.hx},
+                      {-l / s.hy, -r / s.hy, l / s.hy, r / s.hy}});
+  }
+  const auto for_corners = [&](auto&& act) {
+    for (std::size_t j = 0; j < static_cast<std::size_t>(ny); ++j) {
+      for (std::size_t i = 0; i < static_cast<std::size_t>(nx); ++i) {
+        const std::size_t first = j * row + i;
+        act(std::array<std::size_t, 4>{first, first + 1, first + row, first + row + 1});
+      }
+    }
+  };
+  std::vector<double> M(row * (static_cast<std::size_t>(ny) + 1));
+  for_corners([&](const auto& node) {
+    for (const Place& place : places)
+      for (std::size_t k = 0; k < 4; ++k) M[node[k]] += mass * place.shape[k];
+  });
+  std::array<std::size_t, 2> count{};
+  const std::vector<Share> shares = unknowns_of(plate, free, nx, ny, M, count);
+  if (count[0] + count[1] == 0) return 0;
+
+  // Of one cell, node by node: what is left of the mass as the particles have it, and the stiffness.
+  struct Pair {
+    double filter = 0;
+    std::array<std::array<double, 2>, 2> stiffness{};
+  };
+  std::array<std::array<Pair, 4>, 4> cell;
+  const auto& [normal, cross, shear] = s.stiffness;
+  for (std::size_t k = 0; k < 4; ++k) {
+    for (std::size_t q = 0; q < 4; ++q) {
+      auto& [filter, K] = cell[k][q];
+      for (const Place& p : places) {
+        filter += mass * p.shape[k] * p.shape[q];
+        K[0][0] += volume * (normal * p.x[k] * p.x[q] + shear * p.y[k] * p.y[q]);
+        K[1][1] += volume * (normal * p.y[k] * p.y[q] + shear * p.x[k] * p.x[q]);
+        K[0][1] += volume * (cross * p.x[k] * p.y[q] + shear * p.y[k] * p.x[q]);
+        K[1][0] += volume * (cross * p.y[k] * p.x[q] + shear * p.x[k] * p.y[q]);
       }
     }
   }
-  // The columns of Q span what the supports leave free, each of unit length once √M has been taken out.
-  std::vector<Eigen::VectorXd> columns;
-  const auto held = [&](Eigen::Index i, Eigen::Index j, int c) {
-    const auto by = [&](Side side, bool there) {
-      if (!there || free) return false;
-      const auto support = plate.edge(side).support;
-      const int normal = side == Side::left || side == Side::right ? 0 : 1;
-      return support == Edge::Support::fixed || support == Edge::Support::driven ||
-             (support == Edge::Support::roller && c == normal);
-    };
-    return by(Side::left, i == 0) || by(Side::right, i == nx) || by(Side::bottom, j == 0) || by(Side::top, j == ny);
-  };
-  const auto platen_of = [&](Eigen::Index i, Eigen::Index j, int c) {
-    const auto by = [&](Side side, bool there) {
-      return there && !free && plate.edge(side).support == Edge::Support::platen &&
-             c == (side == Side::left || side == Side::right ? 0 : 1);
-    };
-    return by(Side::left, i == 0)     ? 0
-           : by(Side::right, i == nx) ? 1
-           : by(Side::bottom, j == 0) ? 2
-           : by(Side::top, j == ny)   ? 3
-                                      : -1;
-  };
-  std::array<Eigen::VectorXd, 4> platen;
-  platen.fill(Eigen::VectorXd::Zero(size));
-  for (Eigen::Index j = 0; j <= ny; ++j) {
-    for (Eigen::Index i = 0; i <= nx; ++i) {
-      for (int c = 0; c < 2; ++c) {
-        const Eigen::Index dof = 2 * (j * row + i) + c;
-        if (held(i, j, c)) continue;
-        if (const int side = platen_of(i, j, c); side >= 0) {
-          platen[static_cast<std::size_t>(side)](dof) = std::sqrt(M(dof / 2));
-        } else {
-          columns.push_back(Eigen::VectorXd::Unit(size, dof));
+  std::vector<material::SymmetricMatrix> W{material::SymmetricMatrix(count[0]), material::SymmetricMatrix(count[1])};
+  material::SymmetricMatrix A(count[0] + count[1]);
+  for_corners([&](const auto& node) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      for (std::size_t q = 0; q < 4; ++q) {
+        const double root = std::sqrt(M[node[k]] * M[node[q]]);
+        for (std::size_t c = 0; c < 2; ++c) {
+          const Share& a = shares[2 * node[k] + c];
+          if (a.unknown == Share::none) continue;
+          for (std::size_t d = 0; d < 2; ++d) {
+            const Share& b = shares[2 * node[q] + d];
+            if (b.unknown == Share::none) continue;
+            const double part = a.part * b.part / root;
+            A(a.unknown, b.unknown) += part * cell[k][q].stiffness[c][d];
+            const std::size_t first = c == 0 ? 0 : count[0];
+            if (c == d) W[c](a.unknown - first, b.unknown - first) += part * cell[k][q].filter;
+          }
         }
       }
     }
-  }
-  for (const auto& side : platen) {
-    if (side.norm() > 0) columns.push_back(side.normalized());
-  }
-  if (columns.empty()) return 0;
-  Matrix Q(size, static_cast<Eigen::Index>(columns.size()));
-  for (std::size_t k = 0; k < columns.size(); ++k) Q.col(static_cast<Eigen::Index>(k)) = columns[k];
-  Matrix both = Matrix::Zero(size, size);
-  for (Eigen::Index k = 0; k < size; ++k) {
-    for (Eigen::Index q = 0; q < size; ++q) {
-      const double root = std::sqrt(M(k / 2) * M(q / 2));
-      K(k, q) /= root;
-      if (k % 2 == q % 2) both(k, q) = W(k / 2, q / 2) / root;
-    }
-  }
-  const Matrix w = Q.transpose() * both * Q, A = Q.transpose() * K * Q;
-  const Matrix one = Matrix::Identity(w.rows(), w.cols()), F = one - s.pic * (one - w);
-  const Matrix inverse = (one + F).inverse(),
-               phi = s.scheme == Scheme::usl ? Matrix(2 * inverse * (one + F - w)) : Matrix(2 * inverse * w);
-  return Eigen::EigenSolver<Matrix>(phi * A, false).eigenvalues().real().maxCoeff();
+  });
+  return material::largest_eigenvalue(
+      W, [&](double w) { return s.filter(w); }, A);
 }
 
 /// Of a plate of this solid without viscosity.

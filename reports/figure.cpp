@@ -1,12 +1,13 @@
 #include "reports/figure.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <iomanip>
 #include <iterator>
+#include <ostream>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -531,7 +532,7 @@ std::string at_pixels(double x0, double x1, double y0, double y1, double height)
       x0 / width, x1 / width, 1 - y0 / height, 1 - y1 / height);
 }
 
-void write_head(Gnuplot& gp, const Figure& figure, const Heading& heading, const Layout& layout,
+void write_head(std::ostream& gp, const Figure& figure, const Heading& heading, const Layout& layout,
                 const std::vector<Entry>& entries) {
   begin_page(gp, figure.id, width, layout.height);
   gp << "# Change the looks here.\n";
@@ -592,7 +593,7 @@ void write_head(Gnuplot& gp, const Figure& figure, const Heading& heading, const
 }
 
 /// Frames the parts that other panels magnify.
-void write_magnified(Gnuplot& gp, const Layout& layout, std::size_t index) {
+void write_magnified(std::ostream& gp, const Layout& layout, std::size_t index) {
   const Frame& outer = layout.frames[index];
   for (const Frame& inner : layout.frames) {
     const bool inside = inner.x_min >= outer.x_min && inner.x_max <= outer.x_max && inner.y_min >= outer.y_min &&
@@ -604,7 +605,7 @@ void write_magnified(Gnuplot& gp, const Layout& layout, std::size_t index) {
 }
 
 /// Spans and marks with their labels; x0 and y0: the panel's upper left corner [px].
-void write_spans_and_marks(Gnuplot& gp, const Figure& figure, std::size_t index, const Layout& layout, double x0,
+void write_spans_and_marks(std::ostream& gp, const Figure& figure, std::size_t index, const Layout& layout, double x0,
                            double y0) {
   const Figure::Panel& panel = figure.panels[index];
   const Frame& frame = layout.frames[index];
@@ -712,7 +713,7 @@ std::vector<std::pair<double, double>> points_of(const Element& element) {
   return points;
 }
 
-void write_panel(Gnuplot& gp, const Figure& figure, std::size_t index, const Layout& layout,
+void write_panel(std::ostream& gp, const Figure& figure, std::size_t index, const Layout& layout,
                  const std::vector<Entry>& entries) {
   const Figure::Panel& panel = figure.panels[index];
   const std::size_t row = index / layout.columns, column = index % layout.columns;
@@ -764,12 +765,12 @@ void write_panel(Gnuplot& gp, const Figure& figure, std::size_t index, const Lay
   for (std::size_t i = 0; i < elements.size(); ++i)
     gp << (i == 0 ? "" : ", ") << "'-' with " << elements[i].style << " ls " << elements[i].look;
   gp << '\n';
-  for (const Element& element : elements) gp.send1d(points_of(element));
+  for (const Element& element : elements) send_points(gp, points_of(element));
   gp << "unset label" << (figure.motion || crowded(panel) ? "; unset object" : "")
      << (crowded(panel) ? "; unset arrow" : "") << "\n\n";
 }
 
-void write_script(Gnuplot& gp, const Figure& figure) {
+void write_script(std::ostream& gp, const Figure& figure) {
   const Heading heading = heading_of(figure.title, figure.notes, width - left - right);
   const std::vector<Entry> entries = entries_of(figure);
   const Layout layout =
@@ -846,7 +847,7 @@ Drawn draw(const Figure& figure, const fs::path& directory, std::string& message
   message.clear();
   check(figure);
   return draw_files(
-      figure.id, csv_of(figure), [&](Gnuplot& gp) { write_script(gp, figure); }, directory, message);
+      figure.id, csv_of(figure), [&](std::ostream& gp) { write_script(gp, figure); }, directory, message);
 }
 
 }  // namespace diptych::reports

@@ -1,7 +1,7 @@
 #include "reports/gnuplot.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -18,6 +18,13 @@
 #include <utility>
 
 #include "reports/files.hpp"
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wconversion"
+#pragma GCC diagnostic ignored "-Wsign-conversion"
+#pragma GCC diagnostic ignored "-Wshadow"
+#include <gnuplot-iostream.h>
+#pragma GCC diagnostic pop
 
 extern char** environ;
 
@@ -46,7 +53,8 @@ struct Scratch {
 };
 
 /// The script that `write` sends.
-std::string script_of(const std::string& id, const fs::path& directory, const std::function<void(Gnuplot&)>& write) {
+std::string script_of(const std::string& id, const fs::path& directory,
+                      const std::function<void(std::ostream&)>& write) {
   // gnuplot-iostream writes only to a file of its own and reports no failure: read back what arrived.
   const Scratch file(directory / fmt::format(".{}.gp.{}.tmp", id, ::getpid()));
   bool good = false;
@@ -231,7 +239,7 @@ void check_id(const std::string& id) {
         "': an id names files: letters, digits, '_', '-' and '.', starting with a letter, digit or '_'");
 }
 
-void begin_page(Gnuplot& gp, const std::string& id, double width, double height, bool enhanced) {
+void begin_page(std::ostream& gp, const std::string& id, double width, double height, bool enhanced) {
   gp << "# " << id << ": stand-alone, data included; 'gnuplot " << id << ".gp' writes " << id << ".svg beside it.\n"
      << "set encoding utf8\n"
      << fmt::format("set terminal svg {} rounded size {:.0f},{:.0f}", enhanced ? "enhanced" : "noenhanced", width,
@@ -245,7 +253,11 @@ void begin_page(Gnuplot& gp, const std::string& id, double width, double height,
      << "set output output_file\n\n";
 }
 
-Drawn draw_files(const std::string& id, const std::string& csv, const std::function<void(Gnuplot&)>& write,
+void send_points(std::ostream& gp, const std::vector<std::pair<double, double>>& points) {
+  dynamic_cast<Gnuplot&>(gp).send1d(points);
+}
+
+Drawn draw_files(const std::string& id, const std::string& csv, const std::function<void(std::ostream&)>& write,
                  const fs::path& directory, std::string& message) {
   write_file(directory / (id + ".csv"), csv);  // also creates the directory
   write_file(directory / (id + ".gp"), script_of(id, directory, write));

@@ -3,16 +3,11 @@
 
 #include <filesystem>
 #include <functional>
+#include <iosfwd>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
-
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wconversion"
-#pragma GCC diagnostic ignored "-Wsign-conversion"
-#pragma GCC diagnostic ignored "-Wshadow"
-#include <gnuplot-iostream.h>
-#pragma GCC diagnostic pop
 
 #include "reports/figure.hpp"
 
@@ -50,11 +45,14 @@ void check_id(const std::string& id);
 
 /// First lines of a script: the page's size [px] and the file it writes, which is ID.svg beside it unless the variable
 /// output_file names another.
-void begin_page(Gnuplot& gp, const std::string& id, double width, double height, bool enhanced = false);
+void begin_page(std::ostream& gp, const std::string& id, double width, double height, bool enhanced = false);
+
+/// What a '-' of the last plot command is to read, with 18 digits. `gp` is the stream that draw_files gives.
+void send_points(std::ostream& gp, const std::vector<std::pair<double, double>>& points);
 
 /// Writes ID.csv, and ID.gp as `write` sends it to gnuplot-iostream, runs gnuplot and keeps its picture if it is whole:
 /// see draw(). Throws std::runtime_error where a script did not arrive whole.
-Drawn draw_files(const std::string& id, const std::string& csv, const std::function<void(Gnuplot&)>& write,
+Drawn draw_files(const std::string& id, const std::string& csv, const std::function<void(std::ostream&)>& write,
                  const std::filesystem::path& directory, std::string& message);
 
 }  // namespace diptych::reports

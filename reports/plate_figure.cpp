@@ -1,11 +1,12 @@
 #include "reports/plate_figure.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <ostream>
 #include <stdexcept>
 #include <utility>
 
@@ -357,7 +358,7 @@ std::vector<Extreme> extremes_of(const PlateFigure& figure, const Map& map, cons
 // ---- the script
 
 struct Script {
-  Gnuplot& gp;
+  std::ostream& gp;
   double width, height;  ///< of the page [px]
 
   std::string at(double x, double y) const { return fmt::format("screen {:.6f},{:.6f}", x / width, 1 - y / height); }
@@ -390,7 +391,7 @@ std::string colour_of(std::size_t scale, std::size_t band) {
 }
 
 void write_bar(const Script& page_of, const Scale& scale, std::size_t index, const Bar& bar) {
-  Gnuplot& gp = page_of.gp;
+  std::ostream& gp = page_of.gp;
   const std::vector<double>& edges = scale.bands.edges;
   const auto place = [&](double value) {
     return bar.x + (value - edges.front()) / (edges.back() - edges.front()) * bar.w;
@@ -430,7 +431,7 @@ void write_bar(const Script& page_of, const Scale& scale, std::size_t index, con
 }
 
 void write_head(const Script& script, const PlateFigure& figure, const Layout& layout) {
-  Gnuplot& gp = script.gp;
+  std::ostream& gp = script.gp;
   begin_page(gp, figure.id, layout.width, layout.height, true);
   gp << "# Change the looks here.\n";
   for (const std::size_t k : layout.kinds)
@@ -471,7 +472,7 @@ void write_head(const Script& script, const PlateFigure& figure, const Layout& l
 }
 
 /// The bands as polygons that lie on each other, the lowest first. Returns the numbers of those that are not empty.
-std::vector<std::size_t> write_bands(Gnuplot& gp, const PlateFigure& figure, const Map& map, const Scale& scale,
+std::vector<std::size_t> write_bands(std::ostream& gp, const PlateFigure& figure, const Map& map, const Scale& scale,
                                      const std::string& block) {
   std::vector<std::size_t> bands;
   gp << block << " << EOD\n";
@@ -488,7 +489,7 @@ std::vector<std::size_t> write_bands(Gnuplot& gp, const PlateFigure& figure, con
   return bands;
 }
 
-void write_lines(Gnuplot& gp, const Contour& contour, const std::string& block) {
+void write_lines(std::ostream& gp, const Contour& contour, const std::string& block) {
   gp << block << " << EOD\n";
   for (const Line& line : contour.lines) {
     for (std::size_t i = 0; i < line.x.size(); ++i)
@@ -502,7 +503,7 @@ void write_lines(Gnuplot& gp, const Contour& contour, const std::string& block) 
 }
 
 void write_panel(const Script& script, const PlateFigure& figure, std::size_t index, const Layout& layout) {
-  Gnuplot& gp = script.gp;
+  std::ostream& gp = script.gp;
   const Panel& panel = figure.panels[index];
   const double x0 = layout.x_of(index), y0 = layout.y_of(index);
   const bool lowest = index + layout.columns >= figure.panels.size();
@@ -638,7 +639,7 @@ void check(const PlateFigure& figure) {
 Drawn draw(const PlateFigure& figure, const std::filesystem::path& directory, std::string& message) {
   message.clear();
   check(figure);
-  const auto write = [&](Gnuplot& gp) {
+  const auto write = [&](std::ostream& gp) {
     const Layout layout = layout_of(figure);
     const Script script{gp, layout.width, layout.height};
     write_head(script, figure, layout);

@@ -1,9 +1,10 @@
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <ostream>
 #include <stdexcept>
 
 #include "reports/gnuplot.hpp"
@@ -87,7 +88,7 @@ Layout layout_of(const ProblemFigure& figure) {
 
 /// Shapes in pixels of the page; those that come in front lie in the order of their kinds: areas, texts, lines.
 struct Canvas {
-  Gnuplot& gp;
+  std::ostream& gp;
 
   static std::string at(Point p) { return fmt::format("{:.2f},{:.2f}", p.x, p.y); }
   void line(Point a, Point b, const std::string& style) const {
@@ -261,7 +262,7 @@ void draw_insets(const Canvas& canvas, const Layout& layout, const ProblemFigure
 }
 
 /// Lines of the mesh, as segments parted by blank lines.
-void write_mesh(Gnuplot& gp, const Layout& layout, const ProblemFigure& figure) {
+void write_mesh(std::ostream& gp, const Layout& layout, const ProblemFigure& figure) {
   const double w = figure.width / figure.nx, h = figure.height / figure.ny;
   const auto segment = [&](Point a, Point b) { gp << Canvas::at(a) << '\n' << Canvas::at(b) << "\n\n"; };
   gp << "$cells << EOD\n";
@@ -278,7 +279,7 @@ void write_mesh(Gnuplot& gp, const Layout& layout, const ProblemFigure& figure) 
   gp << "EOD\n";
 }
 
-void write_script(Gnuplot& gp, const ProblemFigure& figure) {
+void write_script(std::ostream& gp, const ProblemFigure& figure) {
   const Layout layout = layout_of(figure);
   const Canvas canvas{gp};
   const auto lies = [](std::size_t side) { return side == bottom_side || side == top_side; };
@@ -386,7 +387,7 @@ Drawn draw(const ProblemFigure& figure, const std::filesystem::path& directory, 
   message.clear();
   check(figure);
   return draw_files(
-      figure.id, csv_of(figure), [&](Gnuplot& gp) { write_script(gp, figure); }, directory, message);
+      figure.id, csv_of(figure), [&](std::ostream& gp) { write_script(gp, figure); }, directory, message);
 }
 
 }  // namespace diptych::reports

@@ -1,6 +1,6 @@
 #include "reports/results.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
@@ -57,7 +57,11 @@ std::string Run::label() const {
   bool even = true;
   for (std::size_t i = 0; i < positions.size(); ++i)
     even = even && std::abs(positions[i] - (static_cast<double>(i) + 0.5) / count) < 1e-12;
-  if (!even) text += fmt::format("@{}", fmt::join(positions, ","));
+  if (!even) {
+    std::string at = particles;
+    std::replace(at.begin(), at.end(), ' ', ',');
+    text += "@" + at;
+  }
   return text + swept;
 }
 

@@ -1,6 +1,6 @@
 #include "reports/tables.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_fit.h>
 
@@ -177,13 +177,13 @@ Grid cost_grid(const Case& data, const Group& group) {
                 "node-steps",   "bytes",
                 "wall time [s]"};
   for (const Run* run : group.runs) {
-    Row row{{fmt::to_string(run->cells), general(run->cell_size)}, {}};
+    Row row{{std::to_string(run->cells), general(run->cell_size)}, {}};
     if (has_numbers(*run)) {
       const long work = elements ? run->element_steps : run->particle_steps;
       row.cells.insert(
           row.cells.end(),
-          {fmt::to_string(run->unknowns), general(run->courant), fmt::to_string(run->steps), fmt::to_string(work),
-           fmt::to_string(run->node_steps), fmt::to_string(run->bytes), number(run->wall_seconds, "{:.4g}")});
+          {std::to_string(run->unknowns), general(run->courant), std::to_string(run->steps), std::to_string(work),
+           std::to_string(run->node_steps), std::to_string(run->bytes), number(run->wall_seconds, "{:.4g}")});
     } else {
       row.remark = remark(*run);
     }
@@ -243,7 +243,7 @@ Grid error_grid(const Case& data, const Group& group, double asked, const std::s
   const FieldError* coarse_error = nullptr;
   for (const Run* run : group.runs) {
     const FieldError* error = error_of(*run, asked, field);
-    Row row{{fmt::to_string(run->cells), general(run->cell_size)}, {}};
+    Row row{{std::to_string(run->cells), general(run->cell_size)}, {}};
     if (error == nullptr) {
       row.remark = has_numbers(*run) ? "no sample" : remark(*run);
     } else {
@@ -487,7 +487,7 @@ Grid books_grid(const Case& data, const Group& group) {
       grid.heads.push_back(fmt::format("{} at {} {}", probe.id, general(sample.asked), data.time_unit));
   for (const Run* run : group.runs) {
     if (!has_numbers(*run)) continue;
-    Row row{{fmt::to_string(run->cells)}, {}};
+    Row row{{std::to_string(run->cells)}, {}};
     for (const char* name : {"energy.lost", "energy.drift", "momentum.drift"}) {
       const auto measure = run->measures.find(name);
       row.cells.push_back(measure == run->measures.end() ? "-" : number(measure->second, "{:.3e}"));
@@ -516,7 +516,7 @@ Grid outcome_grid(const Case& data, const Group& group) {
   if (shown.empty()) return {};
   for (const Run* run : group.runs) {
     if (!has_numbers(*run)) continue;
-    Row row{{fmt::to_string(run->cells)}, {}};
+    Row row{{std::to_string(run->cells)}, {}};
     for (const std::string& name : shown) {
       const auto value = run->measures.find(name), exact_value = run->measures.find(name + ".predicted");
       const bool known = value != run->measures.end(), predicted = exact_value != run->measures.end();
@@ -608,18 +608,18 @@ std::string csv_table(const Case& data) {
                                            run->method,
                                            run->particles,
                                            run->parameters,
-                                           fmt::to_string(run->cells),
+                                           std::to_string(run->cells),
                                            exact(run->cell_size),
-                                           fmt::to_string(run->unknowns),
+                                           std::to_string(run->unknowns),
                                            exact(run->courant_asked),
                                            exact(run->courant),
                                            exact(run->time_step),
                                            exact(run->time_step_limit),
-                                           fmt::to_string(run->steps),
-                                           fmt::to_string(run->element_steps),
-                                           fmt::to_string(run->particle_steps),
-                                           fmt::to_string(run->node_steps),
-                                           fmt::to_string(run->bytes),
+                                           std::to_string(run->steps),
+                                           std::to_string(run->element_steps),
+                                           std::to_string(run->particle_steps),
+                                           std::to_string(run->node_steps),
+                                           std::to_string(run->bytes),
                                            exact(run->wall_seconds),
                                            status,
                                            message};

@@ -1,6 +1,6 @@
 #include "reports/vtu.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <bit>
