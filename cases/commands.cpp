@@ -1,6 +1,6 @@
 #include "cases/commands.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <set>
 #include <thread>
 
@@ -45,16 +46,57 @@ std::function<void(std::size_t, std::size_t)> progress() {
   };
 }
 
-/// Runs, judges every gate and makes the figures.
+/// Runs, judges every gate that could be judged, and makes the figures.
 enum class Purpose { judge, show };  // what no gate speaks of is run only to be shown
+
+/// The gates as far as they are known while the runs go on. A gate on single numbers that one run fails has failed,
+/// whatever the others say.
+class Failed {
+ public:
+  explicit Failed(const std::vector<Case>& cases) : cases_(cases) {
+    for (const Case& c : cases) gates_.emplace_back(c.gates.size());
+  }
+  void take(std::size_t which, const reports::Run& run) {
+    const Case& c = cases_[which];
+    for (std::size_t g = 0; g < c.gates.size(); ++g) {
+      if (gates_[which][g] || !of_single_numbers(c.gates[g])) continue;
+      reports::Gate gate = judge(c, c.gates[g], {run});
+      if (gate.verdict == reports::Verdict::fail) gates_[which][g] = std::move(gate);
+    }
+  }
+  bool wanted(std::size_t which, const Leaf& leaf) const {
+    const Case& c = cases_[which];
+    for (std::size_t g = 0; g < c.gates.size(); ++g)
+      if (!gates_[which][g] && matches(c.gates[g].where, leaf)) return true;
+    return false;
+  }
+  const std::optional<reports::Gate>& gate(std::size_t which, std::size_t g) const { return gates_[which][g]; }
+
+ private:
+  const std::vector<Case>& cases_;
+  std::vector<std::vector<std::optional<reports::Gate>>> gates_;
+};
 
 std::vector<reports::Case> measure(const std::vector<Case>& cases, const Options& options, Purpose purpose,
                                    const std::atomic<bool>& cancelled) {
   const bool judge_only = purpose == Purpose::judge;
-  auto results =
-      run_cases(cases, {threads_of(options), &cancelled, options.ledger, options.fields, judge_only, progress()});
+  Running running{threads_of(options), &cancelled, options.ledger, options.fields, judge_only};
+  running.progress = progress();
+  Failed failed(cases);
+  if (options.fail_fast) {
+    running.cheapest_first = true;
+    running.wanted = [&](std::size_t which, const Leaf& leaf) { return failed.wanted(which, leaf); };
+    running.finished = [&](std::size_t which, const reports::Run& run) { failed.take(which, run); };
+  }
+  auto results = run_cases(cases, running);
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    for (const GateSpec& gate : cases[i].gates) results[i].gates.push_back(judge(cases[i], gate, results[i].runs));
+    for (std::size_t g = 0; g < cases[i].gates.size(); ++g) {
+      const GateSpec& gate = cases[i].gates[g];
+      if (const auto& known = failed.gate(i, g))
+        results[i].gates.push_back(*known);
+      else if (!cancelled || all_made(cases[i], gate, results[i].runs))
+        results[i].gates.push_back(judge(cases[i], gate, results[i].runs));
+    }
     if (!judge_only) add_figures(cases[i], results[i]);
   }
   return results;
@@ -71,10 +113,15 @@ void print_gate(const reports::Gate& gate) {
 }
 
 /// Prints the verdict's last line and returns the exit status.
-int finish(const std::vector<Case>& cases, const std::vector<reports::Case>& results, int left_out, bool whole) {
+int finish(const std::vector<Case>& cases, const std::vector<reports::Case>& results, int left_out, bool whole,
+           bool stopped) {
   int declared = 0;
   for (const Case& c : cases) declared += static_cast<int>(c.gates.size());
   Outcome outcome = sum_up(results, declared, left_out);
+  if (stopped) {
+    outcome.exit_code = unstable_or_error;
+    outcome.verdict = "ERROR";
+  }
   const auto differences = differences_from_lock(cases, whole);
   if (!differences.empty()) {
     fmt::print("\nThe gates are not those of cases/gates.lock:\n");
@@ -88,9 +135,15 @@ int finish(const std::vector<Case>& cases, const std::vector<reports::Case>& res
   return outcome.exit_code;
 }
 
-int leave_out_slow(std::vector<Case>& cases) {
-  int left_out = 0;
-  for (Case& c : cases) left_out += static_cast<int>(std::erase_if(c.gates, [](const GateSpec& g) { return g.slow; }));
+/// Takes the gates marked slow away and returns their names.
+std::vector<std::string> leave_out_slow(std::vector<Case>& cases) {
+  std::vector<std::string> left_out;
+  for (Case& c : cases) {
+    std::erase_if(c.gates, [&](const GateSpec& gate) {
+      if (gate.slow) left_out.push_back(c.id + "/" + gate.id);
+      return gate.slow;
+    });
+  }
   std::erase_if(cases, [](const Case& c) { return c.gates.empty(); });
   return left_out;
 }
@@ -247,15 +300,17 @@ int run_command(const Options& options, const std::atomic<bool>& cancelled) {
 
 int gate_command(const Options& options, const std::atomic<bool>& cancelled) {
   auto cases = select_cases(options.selectors);
-  const int left_out = options.quick ? leave_out_slow(cases) : 0;
+  const auto left_out = options.quick ? leave_out_slow(cases) : std::vector<std::string>{};
   const auto results = measure(cases, options, Purpose::judge, cancelled);
   for (const auto& result : results) {
     for (const auto& gate : result.gates) print_gate(gate);
   }
   if (!options.json.empty()) reports::write_file(options.json, reports::results_jsonl(results, provenance()));
   if (!options.junit.empty()) reports::write_file(options.junit, reports::junit_xml(results));
-  any_cancelled(results);
-  return finish(cases, results, left_out, options.selectors.empty() && !options.quick);
+  for (const std::string& gate : left_out) fmt::print("{:8} {}  slow\n", "LEFT OUT", gate);
+  const bool stopped = any_cancelled(results);
+  return finish(cases, results, static_cast<int>(left_out.size()), options.selectors.empty() && !options.quick,
+                stopped);
 }
 
 int explain_command(const Options& options, const std::atomic<bool>& cancelled) {
@@ -291,7 +346,7 @@ int list_command(const Options& options) {
   }
   for (const Case& c : cases) {
     fmt::print("{}  {}{}\n", c.id, c.title,
-               c.paper_figures.empty() ? "" : fmt::format("  [paper: Fig. {}]", fmt::join(c.paper_figures, ", ")));
+               c.paper_figures.empty() ? "" : fmt::format("  [paper: Fig. {}]", listed(c.paper_figures)));
     for (const GateSpec& gate : c.gates)
       fmt::print("    {:24} {:10} {}{}\n", gate.id, gate.kind, gate.quantity, gate.slow ? "  (slow)" : "");
   }
@@ -337,8 +392,8 @@ void show_plate(const Case& c) {
   for (const auto& [feature, key] : plate_features(c)) fmt::print("  uses       {}: {}\n", feature, key);
   for (const auto& [name, value] : c.parameters) fmt::print("  parameter  {} = {:g}\n", name, value);
   for (const PlateVariant& variant : c.variants) fmt::print("  variant    {}: {}\n", variant.id, variant.says);
-  fmt::print("  exact      {}\n  features   {}\n  sampled    t = {} s\n", c.plate->exact.solution,
-             fmt::join(c.features, ", "), fmt::join(c.times, ", "));
+  fmt::print("  exact      {}\n  features   {}\n  sampled    t = {} s\n", c.plate->exact.solution, listed(c.features),
+             listed(c.times));
   show_runs(c);
   for (const PlateProbe& probe : c.plate_probes) fmt::print("  probe      {} {}\n", probe.id, probe.reads);
   for (const GaugeSpec& gauge : c.gauges)
@@ -382,9 +437,8 @@ int show_command(const Options& options) {
       fmt::print("  exact      stress {}; velocity {}; displacement {}\n", c.exact.stress, c.exact.velocity,
                  c.exact.displacement);
     }
-    fmt::print("  exact      {}\n  features   {}\n  sampled    t = {} {}{}\n", c.exact.solution,
-               fmt::join(c.features, ", "), fmt::join(c.times, ", "), c.time_unit,
-               c.from_contact ? " from contact" : "");
+    fmt::print("  exact      {}\n  features   {}\n  sampled    t = {} {}{}\n", c.exact.solution, listed(c.features),
+               listed(c.times), c.time_unit, c.from_contact ? " from contact" : "");
     show_runs(c);
     for (const Probe& probe : c.probes) {
       fmt::print("  probe      {} {} at {:g} {}\n", probe.id, probe.field, probe.at.value, probe.at.unit);
@@ -407,7 +461,7 @@ int paper_command(const Options& options, const std::atomic<bool>& cancelled) {
       if (names_figure(name, id)) wanted.insert(id);
     }
     if (wanted.size() == before) {
-      throw InputError(fmt::format("no figure '{}'; there are: {}", name, fmt::join(known, ", ")));
+      throw InputError(fmt::format("no figure '{}'; there are: {}", name, listed(known)));
     }
   }
   if (options.selectors.empty()) wanted = known;
@@ -439,7 +493,7 @@ int paper_command(const Options& options, const std::atomic<bool>& cancelled) {
   for (const auto& result : results) {
     for (const auto& gate : result.gates) print_gate(gate);
   }
-  const int status = finish(cases, results, 0, false);
+  const int status = finish(cases, results, 0, false, stopped);
   if (status != all_passed) return status;
   return stopped || undrawn > 0 ? unstable_or_error : all_passed;
 }

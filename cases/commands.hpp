@@ -14,6 +14,7 @@ struct Options {
   std::filesystem::path json, junit;
   int threads = 0;  ///< 0: all there are
   bool quick = false;
+  bool fail_fast = false;  ///< gate: no further runs for a gate that has failed
   bool declarations = false;
   bool fields = false;  ///< run: also write the fields of plates at the sample times
   bool ledger = false;

@@ -1,6 +1,6 @@
 #include "cases/gates.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
@@ -287,6 +287,16 @@ Gate judge(const Case& c, const GateSpec& gate, const std::vector<Run>& runs) {
     result.verdict = Verdict::fail;
   }
   return result;
+}
+
+bool of_single_numbers(const GateSpec& gate) {
+  return gate.outcome.empty() && gate.kind != "agreement" && gate.kind != "settling" && (gate.max || gate.ratio);
+}
+
+bool all_made(const Case& c, const GateSpec& gate, const std::vector<Run>& runs) {
+  return std::none_of(runs.begin(), runs.end(), [&](const Run& run) {
+    return run.status == "cancelled" && matches(gate.where, leaf_of(c, run));
+  });
 }
 
 Outcome sum_up(const std::vector<reports::Case>& cases, int declared, int left_out) {

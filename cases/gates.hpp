@@ -12,6 +12,12 @@ namespace diptych::cases {
 /// Judges one gate on the case's runs. A gate that finds nothing to judge is INVALID, never a pass.
 reports::Gate judge(const Case&, const GateSpec&, const std::vector<reports::Run>&);
 
+/// Whether the gate bounds numbers one by one, so that it has failed as soon as one run fails it.
+bool of_single_numbers(const GateSpec&);
+
+/// Whether all the runs that the gate speaks of have been made: none was cancelled.
+bool all_made(const Case&, const GateSpec&, const std::vector<reports::Run>&);
+
 /// What became of all gates together: the worst verdict and the exit status it stands for.
 struct Outcome {
   int exit_code = 13;

@@ -70,7 +70,8 @@ int main(int argc, char** argv) {
 
   auto* gate = app.add_subcommand("gate", "run and judge; 0 only if every declared gate was judged and passed");
   add_cases(gate, false);
-  gate->add_flag("--quick", options.quick, "leave out the gates marked slow");
+  gate->add_flag("--quick", options.quick, "leave out the gates marked slow, and say which");
+  gate->add_flag("--fail-fast", options.fail_fast, "make no further runs for a gate that has failed");
   gate->add_option("--json", options.json, "also write results to this file (JSON lines)");
   gate->add_option("--junit", options.junit, "also write verdicts to this file (JUnit XML)");
   add_threads(gate);

@@ -1,6 +1,6 @@
 #include "cases/plate_runner.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <chrono>
@@ -38,7 +38,8 @@ PlateRecord run_diffusion(const Case& c, const Leaf& leaf, const Stepping& stepp
   const auto x = [&](int i) { return c.plate->width * i / grid.nx; };
   const auto y = [&](int j) { return c.plate->height * j / grid.ny; };
   diffusion::Concentration field(grid, spec.scheme, spec.reading);
-  std::vector<double> diffusivity, source(grid.nodes());
+  std::vector<double> diffusivity, area, source(grid.nodes());
+  for (std::size_t k = 0; k < source.size(); ++k) area.push_back(node_area(grid, k));
   for (int j = 0; j < grid.ny; ++j)
     for (int i = 0; i < grid.nx; ++i)
       diffusivity.push_back(scene.diffusivity((x(i) + x(i + 1)) / 2, (y(j) + y(j + 1)) / 2));
@@ -60,8 +61,7 @@ PlateRecord run_diffusion(const Case& c, const Leaf& leaf, const Stepping& stepp
     const double middle = (static_cast<double>(n) + 0.5) * stepping.time_step;
     if (scene.rate) at_nodes(source, [&](double px, double py) { return scene.rate(px, py, middle); });
     if (spec.corner_rate != 0) source[0] = spec.corner_rate / (grid.hx * grid.hy / 4);  // of the corner's quarter
-    for (std::size_t k = 0; fed_by_something && k < source.size(); ++k)
-      fed += source[k] * node_area(grid, k) * stepping.time_step;
+    for (std::size_t k = 0; fed_by_something && k < source.size(); ++k) fed += source[k] * area[k] * stepping.time_step;
     field.step(diffusivity, source, stepping.time_step);
     record.steps = n + 1;
     if (next != stepping.sample_after.end() && *next == n + 1) {
@@ -212,7 +212,7 @@ void measure_against_forward_euler(const Case& c, const Leaf& leaf, const Plate&
   diffusion::Scheme& scheme = c.plate->spread ? other.plate->spread->scheme : other.plate->evolution->diffusion->scheme;
   if (scheme == diffusion::Scheme::forward_euler) return;
   scheme = diffusion::Scheme::forward_euler;
-  const long parts = static_cast<long>(std::ceil(stepping.time_step / step_of(other, leaf).asked));
+  const long parts = static_cast<long>(std::ceil(stepping.time_step / plate_step(other, leaf).asked));
   Stepping finer = stepping;
   finer.time_step /= static_cast<double>(parts);
   finer.steps *= parts;
@@ -253,7 +253,7 @@ void measure_limit(const Case& c, const Leaf& leaf, const Plate& plate, const Ti
 
 }  // namespace
 
-TimeStep step_of(const Case& c, const Leaf& leaf) {
+TimeStep plate_step(const Case& c, const Leaf& leaf) {
   const PlateSpec& spec = *c.plate;
   const diffusion::Grid grid = grid_of(spec, leaf.cells);
   const double h = std::min(grid.hx, grid.hy);
@@ -307,11 +307,10 @@ reports::Run describe_plate(const Case& c, const Leaf& leaf) {
   return run;
 }
 
-reports::Run run_plate(const Case& whole, const Leaf& leaf, const Running& running) {
+reports::Run run_plate(const Case& whole, const Leaf& leaf, const TimeStep& step, const Running& running) {
   const Case c = with_parameters(whole, leaf);
   reports::Run run = describe_plate(c, leaf);
   const auto exact = make_plane_exact(c);
-  const TimeStep step = step_of(c, leaf);
   Stepping stepping = plan_steps(c.times.back(), step.asked, c.times, c.ledger);
   stepping.cancelled = running.cancelled;
   if (running.keep_ledger && c.ledger) stepping.books = Books::lines;

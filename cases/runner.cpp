@@ -1,11 +1,11 @@
 #include "cases/runner.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <mutex>
@@ -50,10 +50,10 @@ double cell_time(const Scene& scene, const Leaf& leaf) {
   return scene.bars[0].length / leaf.cells / largest_wave_speed(scene);
 }
 
-Stepping plan(const Case& c, const Scene& scene, const Leaf& leaf) {
+Stepping plan(const Case& c, const Leaf& leaf, const TimeStep& step) {
   std::vector<double> times;
   for (const double time : c.times) times.push_back(instant(c, leaf, time));
-  return plan_steps(times.back(), leaf.courant * cell_time(scene, leaf), times, c.ledger);
+  return plan_steps(times.back(), step.asked, times, c.ledger);
 }
 
 /// Numbers that differ between two records after scaling; a different number of samples counts as one more. NaN where
@@ -284,18 +284,37 @@ reports::Run describe(const Case& c, const Leaf& leaf) {
 
 }  // namespace
 
+namespace {
+
+TimeStep bar_step(const Case& c, const Leaf& leaf) {
+  const Scene scene = make_scene(c, leaf.cells);
+  const double unit = cell_time(scene, leaf);
+  return {leaf.courant * unit, critical_time_step(scene, leaf), unit};
+}
+
+}  // namespace
+
+TimeStep step_of(const Case& whole, const Leaf& leaf) {
+  const Case c = with_parameters(whole, leaf);
+  return c.plate ? plate_step(c, leaf) : bar_step(c, leaf);
+}
+
 reports::Run run_leaf(const Case& whole, const Leaf& leaf, const Running& running) {
-  if (whole.plate) return run_plate(whole, leaf, running);
+  return run_leaf(whole, leaf, step_of(whole, leaf), running);
+}
+
+reports::Run run_leaf(const Case& whole, const Leaf& leaf, const TimeStep& step, const Running& running) {
+  if (whole.plate) return run_plate(whole, leaf, step, running);
   const Case c = with_parameters(whole, leaf);
   reports::Run run = describe(c, leaf);
   const Scene scene = make_scene(c, leaf.cells);
   const auto exact = make_exact(c, leaf);
-  Stepping stepping = plan(c, scene, leaf);
+  Stepping stepping = plan(c, leaf, step);
   stepping.cancelled = running.cancelled;
   if (running.keep_ledger && c.ledger) stepping.books = Books::lines;
   run.time_step = stepping.time_step;
-  run.time_step_limit = critical_time_step(scene, leaf);
-  run.courant = stepping.time_step / cell_time(scene, leaf);
+  run.time_step_limit = step.limit;
+  run.courant = stepping.time_step / step.unit;
   if (std::adjacent_find(stepping.sample_after.begin(), stepping.sample_after.end()) != stepping.sample_after.end()) {
     run.invalid = "two sample times fall on one step";
     run.status = "completed";
@@ -346,42 +365,39 @@ reports::Run run_leaf(const Case& whole, const Leaf& leaf, const Running& runnin
 
 namespace {
 
-TimeStep bar_step(const Case& c, const Leaf& leaf) {
-  const Scene scene = make_scene(with_parameters(c, leaf), leaf.cells);
-  const double unit = cell_time(scene, leaf);
-  return {leaf.courant * unit, critical_time_step(scene, leaf), unit};
+void refuse_unstable(const Case& c, const Leaf& leaf, const TimeStep& step) {
+  if (c.allow_unstable) return;
+  constexpr double most = 1e12;
+  if (c.plate && !(c.times.back() / step.asked <= most))
+    throw InputError(fmt::format("{}: axes.courant: {} needs {:g} steps; allowed: at most {:g} steps", c.path.string(),
+                                 leaf.courant, c.times.back() / step.asked, most));
+  if (step.asked <= step.limit * (1 + round_off)) return;
+  throw InputError(fmt::format(
+      "{}: axes.courant: {} for {} with {} cells is a time step of {:.6g}, above the limit {:.6g} (Courant {:.6g}); "
+      "allowed are values up to the limit, an [[axes]] of its own for each limit, or [run] allow_unstable = true to "
+      "see it blow up",
+      c.path.string(), leaf.courant, leaf.method, leaf.cells, step.asked, step.limit, step.limit / step.unit));
 }
+
+double duration(const Case& c, const Leaf& leaf) {
+  return c.plate ? c.times.back() : instant(with_parameters(c, leaf), leaf, c.times.back());
+}
+
+struct Task {
+  std::size_t which, slot;  ///< case, and run of it
+  Leaf leaf;
+  TimeStep step{};
+  double work = 0;           ///< about as many updates of unknowns
+  std::string refused = {};  ///< why it may not be run
+};
 
 }  // namespace
 
-void refuse_unstable(const Case& c) {
-  if (c.allow_unstable) return;
-  for (const Leaf& leaf : leaves(c)) {
-    const TimeStep step = c.plate ? step_of(with_parameters(c, leaf), leaf) : bar_step(c, leaf);
-    constexpr double most = 1e12;
-    if (c.plate && !(c.times.back() / step.asked <= most))
-      throw InputError(fmt::format("{}: axes.courant: {} needs {:g} steps; allowed: at most {:g} steps",
-                                   c.path.string(), leaf.courant, c.times.back() / step.asked, most));
-    if (step.asked <= step.limit * (1 + round_off)) continue;
-    throw InputError(fmt::format(
-        "{}: axes.courant: {} for {} with {} cells is a time step of {:.6g}, above the limit {:.6g} (Courant {:.6g}); "
-        "allowed are values up to the limit, an [[axes]] of its own for each limit, or [run] allow_unstable = true to "
-        "see it blow up",
-        c.path.string(), leaf.courant, leaf.method, leaf.cells, step.asked, step.limit, step.limit / step.unit));
-  }
-}
-
 std::vector<reports::Case> run_cases(const std::vector<Case>& cases, const Running& running) {
-  struct Task {
-    std::size_t which;
-    std::size_t slot;
-    Leaf leaf;
-  };
   std::vector<Task> tasks;
   std::vector<reports::Case> results;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const Case& c = cases[i];
-    refuse_unstable(c);
     reports::Case result;
     result.id = c.id;
     result.title = c.title;
@@ -401,29 +417,62 @@ std::vector<reports::Case> run_cases(const std::vector<Case>& cases, const Runni
     results.push_back(std::move(result));
   }
 
-  std::mutex telling;
-  std::size_t done = 0;
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(running.threads));
+  const auto stopped = [&] { return running.cancelled && *running.cancelled; };
+  // One by one and in order, so that what comes first is begun first.
+  const auto for_each = [&](std::size_t count, auto&& act) {
+    std::atomic<std::size_t> next{0};
+    tbb::parallel_for(0, running.threads, [&](int) {
+      for (std::size_t k = next++; k < count && !stopped(); k = next++) act(k);
+    });
+  };
+  std::vector<std::string> doubts(cases.size());
+  for_each(cases.size(), [&](std::size_t i) {
+    if (!results[i].runs.empty()) doubts[i] = doubt_exact(cases[i]);
+  });
+  for_each(tasks.size(), [&](std::size_t t) {
+    Task& task = tasks[t];
+    const Case& c = cases[task.which];
+    try {
+      task.step = step_of(c, task.leaf);
+      refuse_unstable(c, task.leaf, task.step);
+    } catch (const InputError& problem) {
+      task.refused = problem.what();
+    }
+    task.work = results[task.which].runs[task.slot].unknowns * duration(c, task.leaf) / task.step.asked;
+  });
+  for (const Task& task : tasks)
+    if (!task.refused.empty()) throw InputError(task.refused);
+  std::stable_sort(tasks.begin(), tasks.end(), [&](const Task& a, const Task& b) {
+    return running.cheapest_first ? a.work < b.work : a.work > b.work;
+  });
+
+  std::mutex telling;
+  std::size_t done = 0;
   // Each run is serial and writes its own slot, so neither the number of threads nor their order can touch a bit.
-  tbb::parallel_for(std::size_t{0}, tasks.size(), [&](std::size_t t) {
-    if (running.cancelled && *running.cancelled) return;
+  for_each(tasks.size(), [&](std::size_t t) {
     const Task& task = tasks[t];
     reports::Run& run = results[task.which].runs[task.slot];
-    try {
-      run = run_leaf(cases[task.which], task.leaf, running);
-    } catch (const std::exception& problem) {
-      run.status = "error";
-      run.message = problem.what();
+    const auto wanted = [&] {
+      const std::lock_guard<std::mutex> lock(telling);
+      return !running.wanted || running.wanted(task.which, task.leaf);
+    };
+    if (!wanted()) {
+      run.status = "left out";
+    } else {
+      try {
+        run = run_leaf(cases[task.which], task.leaf, task.step, running);
+      } catch (const std::exception& problem) {
+        run.status = "error";
+        run.message = problem.what();
+      }
     }
+    if (!doubts[task.which].empty()) run.invalid = doubts[task.which];
     const std::lock_guard<std::mutex> lock(telling);
+    if (running.finished && run.status != "left out") running.finished(task.which, run);
     if (running.progress) running.progress(++done, tasks.size());
   });
-  for (std::size_t i = 0; i < cases.size(); ++i) {
-    const std::string doubt = doubt_exact(cases[i]);
-    if (doubt.empty()) continue;
-    for (reports::Run& run : results[i].runs) run.invalid = doubt;
-  }
   return results;
 }
 

@@ -19,19 +19,31 @@ struct Running {
   bool keep_ledger = false;                      ///< keep every step's line of the ledger in the results
   bool keep_fields = false;                      ///< keep all fields of plates at the sample times in the results
   bool judged_only = false;                      ///< leave out runs that no gate of their case speaks of
-  std::function<void(std::size_t done, std::size_t total)> progress =
-      {};  ///< after each run, from one thread at a time
+  bool cheapest_first = false;                   ///< instead of the longest, with which the threads end together
+  /// Asked before each run of the which-th case: one that is no longer wanted is left out with status "left out".
+  std::function<bool(std::size_t which, const Leaf&)> wanted = {};
+  /// Told of each run, from one thread at a time.
+  std::function<void(std::size_t which, const reports::Run&)> finished = {};
+  std::function<void(std::size_t done, std::size_t total)> progress = {};  ///< after each run, likewise
 };
+
+/// The time step that a leaf asks for and the largest stable one. Courant number 1 is Δt = h/c of the fastest bar; of a
+/// plate h/c_d, h the smaller side of a cell; of diffusion alone h²/d with the largest diffusivity.
+struct TimeStep {
+  double asked, limit;  ///< [s]
+  double unit;          ///< Δt of Courant number 1 [s]
+};
+TimeStep step_of(const Case&, const Leaf&);
 
 /// One run of a leaf's scene, measured: errors, predictions, ledger, invariants and limits that the case's gates ask
 /// for.
-reports::Run run_leaf(const Case&, const Leaf&, const Running& = {});
+reports::Run run_leaf(const Case&, const Leaf&, const TimeStep&, const Running& = {});
+reports::Run run_leaf(const Case&, const Leaf&, const Running& = {});  ///< with the step that the leaf asks for
 
-/// Throws InputError where a leaf asks for a Courant number above the method's limit and the case does not allow it.
-void refuse_unstable(const Case&);
-
-/// Runs all leaves of all cases. Runs not begun when `cancelled` turns true are left out with status "cancelled";
-/// finished ones stay. A case whose exact solution fails its own test has only runs that cannot be judged.
+/// Runs all leaves of all cases. Throws InputError before the first run where a leaf asks for a Courant number above
+/// the method's limit and its case does not allow it. Runs not begun when `cancelled` turns true are left out with
+/// status "cancelled"; finished ones stay. A case whose exact solution fails its own test has only runs that cannot be
+/// judged.
 std::vector<reports::Case> run_cases(const std::vector<Case>&, const Running&);
 
 }  // namespace diptych::cases
