@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# teeth.sh PROGRAM VERDICT GATE...: a program with a planted defect must give each of these gates that verdict: FAIL, by a
-# number and not by a crash, or INVALID.
+# teeth.sh PROGRAM VERDICT GATE...: with the defect that DIPTYCH_DEFECT names, the program must give each of these gates
+# that verdict: FAIL, by a number and not by a crash, or INVALID.
 set -uo pipefail
 program=$1 verdict=$2
 shift 2
-out=$("$program" gate "$@" 2>&1)
+out=$("$program" gate --fail-fast -j 1 "$@" 2>&1)
 status=$?
 survived=0
 for gate in "$@"; do
