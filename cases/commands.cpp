@@ -498,9 +498,44 @@ int paper_command(const Options& options, const std::atomic<bool>& cancelled) {
   return stopped || undrawn > 0 ? unstable_or_error : all_passed;
 }
 
-int test_command() {
-  const std::string build = build_directory().string();
-  execlp("ctest", "ctest", "--test-dir", build.c_str(), "--output-on-failure", "--no-tests=error", "-j2", nullptr);
+int test_command(const Options& options) {
+  const std::vector<std::string> parts{"unit", "gates", "teeth", "cli"};
+  std::vector<std::string> chosen = options.selectors.empty() ? parts : options.selectors;
+  for (const std::string& part : chosen) {
+    if (contains(parts, part)) continue;
+    const std::string hint = suggestion(part, parts);
+    throw InputError(fmt::format("no part of the tests is called '{}'; there are {}{}{}", part, listed(parts),
+                                 hint.empty() ? "" : "; ", hint));
+  }
+  if (options.quick) {
+    std::erase(chosen, "teeth");
+    std::replace(chosen.begin(), chosen.end(), std::string("gates"), std::string("quick"));
+    if (chosen.empty()) throw InputError("test teeth --quick: planted defects are what --quick leaves out");
+  }
+  const auto has = [&](const char* part) { return contains(chosen, part); };
+  if (options.targets) {
+    fmt::print("{}\n", has("unit") && has("teeth") ? "unit_tests planted"
+                       : has("unit")               ? "unit_tests"
+                       : has("teeth")              ? "planted"
+                                                   : "");
+    return all_passed;
+  }
+  if (options.quick) fmt::print("LEFT OUT  planted defects, and the gates that are marked slow\n");
+  std::vector<std::string> words{"ctest",
+                                 "--test-dir",
+                                 build_directory().string(),
+                                 "--output-on-failure",
+                                 "-L",
+                                 "^(" + listed(chosen, "|") + ")$",
+                                 "--no-tests=error",
+                                 "-j",
+                                 std::to_string(threads_of(options))};
+  if (!options.pattern.empty()) words.insert(words.end(), {"-R", options.pattern});
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  std::fflush(stdout);
+  execvp("ctest", arguments.data());
   throw InputError("ctest could not be started; ./diptych test installs and builds what it needs");
 }
 

@@ -18,6 +18,8 @@ struct Options {
   bool declarations = false;
   bool fields = false;  ///< run: also write the fields of plates at the sample times
   bool ledger = false;
+  std::string pattern;   ///< test: only the tests whose names it fits
+  bool targets = false;  ///< test: only name what must be built for them
 };
 
 int run_command(const Options&, const std::atomic<bool>& cancelled);
@@ -26,7 +28,7 @@ int explain_command(const Options&, const std::atomic<bool>& cancelled);
 int list_command(const Options&);
 int show_command(const Options&);
 int paper_command(const Options&, const std::atomic<bool>& cancelled);
-int test_command();
+int test_command(const Options&);
 std::string version_text();
 
 }  // namespace diptych::cases

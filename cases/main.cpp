@@ -55,9 +55,13 @@ int main(int argc, char** argv) {
   add_threads(paper);
   paper->callback([&] { status = paper_command(options, cancelled); });
 
-  app.add_subcommand("test", "unit tests, gates and planted defects: all that CI runs")->callback([&] {
-    status = test_command();
-  });
+  auto* test = app.add_subcommand("test", "unit tests, gates and planted defects: all that CI runs");
+  test->add_option("PART", options.selectors, "unit, gates, teeth (the planted defects), cli; all without one");
+  test->add_option("-R", options.pattern, "only the tests whose names this regular expression fits");
+  test->add_flag("--quick", options.quick, "leave out planted defects and slow gates");
+  test->add_flag("--targets", options.targets)->group("");  // for the launcher
+  add_threads(test);
+  test->callback([&] { status = test_command(options); });
 
   auto* run = app.add_subcommand("run", "run cases and print convergence tables");
   add_cases(run, true);

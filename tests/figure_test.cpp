@@ -18,30 +18,15 @@
 #include <string>
 #include <vector>
 
+#include "tests/folder.hpp"
+
 namespace {
 
 namespace fs = std::filesystem;
+using diptych::tests::contents;
+using diptych::tests::Folder;
+using diptych::tests::Path;
 using namespace diptych::reports;
-
-struct Folder {
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "diptych figure's-XXXXXX").string();  // blanks and quotes welcome
-    BOOST_TEST_REQUIRE(::mkdtemp(name.data()) != nullptr);
-    path = name;
-  }
-  ~Folder() { fs::remove_all(path); }
-  std::size_t entries() const {
-    return static_cast<std::size_t>(std::distance(fs::directory_iterator(path), fs::directory_iterator()));
-  }
-  fs::path path;
-};
-
-/// Another PATH for as long as it lives.
-struct Path {
-  explicit Path(const std::string& value) : before(std::getenv("PATH")) { ::setenv("PATH", value.c_str(), 1); }
-  ~Path() { ::setenv("PATH", before.c_str(), 1); }
-  std::string before;
-};
 
 /// A program called gnuplot that does what the text says.
 Path stub(const Folder& folder, const std::string& body) {
@@ -49,11 +34,6 @@ Path stub(const Folder& folder, const std::string& body) {
   std::ofstream(program) << "#!/bin/sh\n" << body << "\n";
   ::chmod(program.c_str(), 0755);
   return Path(folder.path.string() + ":/usr/bin:/bin");
-}
-
-std::string contents(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
@@ -294,9 +274,13 @@ BOOST_AUTO_TEST_CASE(same_bytes_again_and_by_hand) {
   for (const char* name : {"fig1.gp", "fig1.csv", "fig1.svg"})
     BOOST_TEST((contents(folder.path / name) == contents(other.path / name)), name);
   // As a user does it, from another folder: the picture lands beside the script.
-  fs::remove(folder.path / "fig1.svg");
-  BOOST_TEST(std::system(("gnuplot \"" + (folder.path / "fig1.gp").string() + "\"").c_str()) == 0);
-  BOOST_TEST((contents(folder.path / "fig1.svg") == contents(other.path / "fig1.svg")));
+  for (const char* locale : {"C", "C.UTF-8", "de_DE.UTF-8"}) {
+    fs::remove(folder.path / "fig1.svg");
+    const std::string command =
+        "LC_ALL=" + std::string(locale) + " gnuplot \"" + (folder.path / "fig1.gp").string() + '"';
+    BOOST_TEST(std::system((command + " 2>\"" + (folder.path / "words").string() + '"').c_str()) == 0);
+    BOOST_TEST((contents(folder.path / "fig1.svg") == contents(other.path / "fig1.svg")), locale);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(many_panels_and_points) {

@@ -19,30 +19,16 @@
 #include <string>
 #include <vector>
 
+#include "tests/folder.hpp"
+
 namespace {
 
 namespace fs = std::filesystem;
+using diptych::tests::contents;
+using diptych::tests::Folder;
 using namespace diptych::reports;
 
 const double not_a_number = std::numeric_limits<double>::quiet_NaN();
-
-struct Folder {
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "diptych-files-XXXXXX").string();
-    BOOST_TEST_REQUIRE(::mkdtemp(name.data()) != nullptr);
-    path = name;
-  }
-  ~Folder() { fs::remove_all(path); }
-  std::size_t entries() const {
-    return static_cast<std::size_t>(std::distance(fs::directory_iterator(path), fs::directory_iterator()));
-  }
-  fs::path path;
-};
-
-std::string contents(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
 
 /// Makes the disk look full: no file may grow beyond `bytes`.
 struct FullDisk {

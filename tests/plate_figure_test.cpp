@@ -18,33 +18,15 @@
 #include <vector>
 
 #include "reports/bands.hpp"
+#include "tests/folder.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
+using diptych::tests::contents;
+using diptych::tests::Folder;
+using diptych::tests::Path;
 using namespace diptych::reports;
-
-struct Folder {
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "diptych plate's-XXXXXX").string();
-    BOOST_TEST_REQUIRE(::mkdtemp(name.data()) != nullptr);
-    path = name;
-  }
-  ~Folder() { fs::remove_all(path); }
-  fs::path path;
-};
-
-/// Another PATH for as long as it lives.
-struct Path {
-  explicit Path(const std::string& value) : before(std::getenv("PATH")) { ::setenv("PATH", value.c_str(), 1); }
-  ~Path() { ::setenv("PATH", before.c_str(), 1); }
-  std::string before;
-};
-
-std::string contents(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
@@ -73,11 +55,13 @@ std::string scripted(const AnyFigure& figure, const fs::path& directory) {
   return contents(directory / (figure.id + ".gp"));
 }
 
-/// Draws again as a user does: the same picture, and gnuplot has nothing to say.
+/// Draws again as a user does: the same picture, and gnuplot has nothing to say. (In a locale without a degree sign it
+/// says so.)
 template <class AnyFigure>
 void draws_again_in_silence(const AnyFigure& figure, const fs::path& directory) {
   const std::string words = (directory / "words").string(), svg = contents(directory / (figure.id + ".svg"));
-  const std::string command = "gnuplot \"" + (directory / (figure.id + ".gp")).string() + "\" > \"" + words + "\" 2>&1";
+  const std::string command =
+      "LC_ALL=C.UTF-8 gnuplot \"" + (directory / (figure.id + ".gp")).string() + "\" > \"" + words + "\" 2>&1";
   BOOST_TEST(std::system(command.c_str()) == 0);
   BOOST_TEST(contents(words) == "");
   BOOST_TEST((contents(directory / (figure.id + ".svg")) == svg));

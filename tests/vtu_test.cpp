@@ -19,20 +19,14 @@
 #include <string>
 #include <vector>
 
+#include "tests/folder.hpp"
+
 namespace {
 
 namespace fs = std::filesystem;
+using diptych::tests::contents;
+using diptych::tests::Folder;
 using namespace diptych::reports;
-
-struct Folder {
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "diptych-vtu-XXXXXX").string();
-    BOOST_TEST_REQUIRE(::mkdtemp(name.data()) != nullptr);
-    path = name;
-  }
-  ~Folder() { fs::remove_all(path); }
-  fs::path path;
-};
 
 /// Base64 by the alphabet of RFC 4648, bit by bit.
 std::string decoded(const std::string& text) {

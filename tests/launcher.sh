@@ -1,0 +1,66 @@
+#!/usr/bin/env bash
+# launcher.sh SOURCE PROGRAM: what a user meets before there is a program, and where one may be run but not built.
+set -uo pipefail
+source=$1 program=$2
+work=$(mktemp -d)
+trap 'chmod -R u+w "$work"; rm -rf "$work"' EXIT
+chmod 755 "$work"
+failures=0 checks=0
+# expect STATUS PATTERN COMMAND...: exit status and a pattern in what is printed
+expect() {
+  local status=$1 pattern=$2 out got
+  shift 2
+  out=$("$@" 2>&1)
+  got=$?
+  checks=$((checks + 1))
+  if [ "$got" -ne "$status" ] || ! grep -qE -- "$pattern" <<<"$out"; then
+    echo "expected status $status and /$pattern/, got $got from: $*"
+    echo "$out" | tail -n 15
+    failures=$((failures + 1))
+  fi
+}
+# Somebody who may not write here; root may everywhere.
+as_another() {
+  if [ "$(id -u)" = 0 ]; then setpriv --reuid=65534 --regid=65534 --clear-groups "$@"; else "$@"; fi
+}
+
+mkdir -p "$work/clone/cases" "$work/bin"
+cp "$source/diptych" "$source/CMakeLists.txt" "$work/clone"
+cp "$source/cases/main.cpp" "$work/clone/cases"
+
+# A fresh clone: told without installing or building anything.
+for tool in apt-get dpkg-query cmake ninja; do
+  printf '#!/bin/sh\necho called >>"%s"\nexit 1\n' "$work/called" >"$work/bin/$tool"
+  chmod +x "$work/bin/$tool"
+done
+fresh=(env PATH="$work/bin:$PATH" "$work/clone/diptych")
+for command in $("$program" --help | sed -n '/^Subcommands:/,$s/^  \([a-z]*\) .*/\1/p'); do
+  expect 0 "^  $command  " "${fresh[@]}" --help
+done
+[ "$checks" -ge 5 ] || { echo "the program names $checks commands"; failures=$((failures + 1)); }
+expect 0 'diptych [0-9.]+ \(.*\), not built yet' "${fresh[@]}" --version
+expect 0 'Usage' env -i "$work/clone/diptych" --help
+if [ -e "$work/called" ] || [ -e "$work/clone/build" ]; then
+  echo "--help and --version installed or built something"
+  failures=$((failures + 1))
+fi
+
+# Somebody else's build, or one on a read-only file system: used as it is.
+mkdir -p "$work/clone/build/release"
+printf '#!/bin/sh\necho "ran $*"\n' >"$work/clone/build/release/diptych"
+chmod +x "$work/clone/build/release/diptych"
+chmod -R a-w "$work/clone/build"
+expect 0 '^ran list bar.energy$' as_another env PATH="$work/bin:$PATH" "$work/clone/diptych" list bar.energy
+expect 14 'tests are built .* may not be written' as_another env PATH="$work/bin:$PATH" "$work/clone/diptych" test
+touch -d '+1 minute' "$work/clone/cases/main.cpp"
+expect 14 'main.cpp is newer than the program' as_another env PATH="$work/bin:$PATH" "$work/clone/diptych" list
+
+# Tests by parts.
+expect 0 '^unit_tests planted$' "$program" test --targets
+expect 0 '^planted$' "$program" test teeth --targets
+expect 0 '^unit_tests$' "$program" test unit cli --quick --targets
+expect 14 "no part of the tests is called 'gate'; .*did you mean \"gates\"" "$program" test gate
+expect 14 'planted defects are what --quick leaves out' "$program" test teeth --quick
+
+echo "$checks checks, $failures failed"
+[ "$failures" -eq 0 ]
