@@ -165,6 +165,13 @@ struct FigureSpec {
 };
 
 struct Case {
+  Case();  // compiled once, in case.cpp, where each source that copies a case would compile them anew
+  Case(const Case&);
+  Case(Case&&) noexcept;
+  Case& operator=(const Case&);
+  Case& operator=(Case&&) noexcept;
+  ~Case();
+
   std::filesystem::path path;
   std::string id, title, claim, why;
   std::vector<std::string> paper_figures;               ///< "1", "3a"

@@ -47,6 +47,20 @@ double room(const Check& check) {
 
 }  // namespace
 
+Run::Run() = default;
+Run::Run(const Run&) = default;
+Run::Run(Run&&) noexcept = default;
+Run& Run::operator=(const Run&) = default;
+Run& Run::operator=(Run&&) noexcept = default;
+Run::~Run() = default;
+
+Case::Case() = default;
+Case::Case(const Case&) = default;
+Case::Case(Case&&) noexcept = default;
+Case& Case::operator=(const Case&) = default;
+Case& Case::operator=(Case&&) noexcept = default;
+Case::~Case() = default;
+
 std::string Run::label() const {
   std::string text = fmt::format("{} N={} C={}", method, cells, courant_asked);
   const std::string swept = parameters.empty() ? "" : " " + parameters;

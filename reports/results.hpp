@@ -77,6 +77,13 @@ struct GaugeHistory {
 };
 
 struct Run {
+  Run();  // compiled once, in results.cpp
+  Run(const Run&);
+  Run(Run&&) noexcept;
+  Run& operator=(const Run&);
+  Run& operator=(Run&&) noexcept;
+  ~Run();
+
   std::string case_id;
   std::string method;  ///< "fem", "mpm-usf", "mpm-usl", "mpm-musl"
   int cells = 0;
@@ -185,6 +192,13 @@ struct Figure {
 };
 
 struct Case {
+  Case();  // compiled once, in results.cpp
+  Case(const Case&);
+  Case(Case&&) noexcept;
+  Case& operator=(const Case&);
+  Case& operator=(Case&&) noexcept;
+  ~Case();
+
   std::string id, title, why, claim, path;
   std::string time_unit;  ///< "L/c" or "s"
   std::string units;      ///< "SI" or "paper"
