@@ -82,6 +82,10 @@ expect 14 'cannot write to' "$program" run own.toml --out own.toml/results
 expect 12 'cannot write|standard output' sh -c "'$program' list >/dev/full"
 sed 's/max = 0.2/max = 1e-9/' own.toml > strict.toml
 expect 10 'DIPTYCH-VERDICT FAIL gates=1/1 passed=0' "$program" gate strict.toml
+expect 10 '^FAIL +own/close +.*outside' "$program" gate --fail-fast strict.toml
+expect 0 '"status":"left out"' sh -c "'$program' gate --fail-fast -j1 strict.toml --json f.jsonl >/dev/null 2>&1; cat f.jsonl"
+sed 's/^id = "close"/id = "close"\nslow = true/' own.toml > slow.toml
+expect 13 '^LEFT OUT +own/close' "$program" gate --quick slow.toml
 sed 's/rho = 7800.0/rho = -7800.0/' own.toml > negative.toml
 expect 14 'negative.toml:1[0-9].*rho.*-7800' "$program" gate negative.toml
 sed 's/^traction = /tracton = /' own.toml > typo.toml
@@ -220,6 +224,22 @@ checks=$((checks + 1))
 if [ "$status" -ne 12 ] || ! grep -q 'stopped on request' stopped.txt; then
   echo "Ctrl-C: status $status"
   tail -n 5 stopped.txt
+  failures=$((failures + 1))
+fi
+
+# In the first moments of a gate, too: what was not run is not judged, and nothing is said of it.
+"$program" gate >gated.txt 2>&1 &
+pid=$!
+sleep 0.3
+kill -INT "$pid"
+began=$SECONDS
+wait "$pid"
+status=$?
+checks=$((checks + 1))
+if [ "$status" -ne 12 ] || [ $((SECONDS - began)) -gt 5 ] || grep -q '^ERROR' gated.txt ||
+  ! grep -q '^DIPTYCH-VERDICT ERROR gates=' gated.txt; then
+  echo "Ctrl-C of gate: status $status after $((SECONDS - began)) s"
+  tail -n 5 gated.txt
   failures=$((failures + 1))
 fi
 
