@@ -1,24 +1,12 @@
 #!/usr/bin/env bash
 # cli.sh PROGRAM: what a user meets at the command line.
 set -uo pipefail
+tests=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd)
 program=$(readlink -f "$1")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
-failures=0 checks=0
-# expect STATUS PATTERN COMMAND...: exit status and a pattern in what is printed
-expect() {
-  local status=$1 pattern=$2 out got
-  shift 2
-  out=$("$@" 2>&1)
-  got=$?
-  checks=$((checks + 1))
-  if [ "$got" -ne "$status" ] || ! grep -qE -- "$pattern" <<<"$out"; then
-    echo "expected status $status and /$pattern/, got $got from: $*"
-    echo "$out" | tail -n 15
-    failures=$((failures + 1))
-  fi
-}
+source "$tests/expect.sh"
 
 expect 0 'diptych [0-9.]+ \(.*GNU|Clang' "$program" --version
 expect 0 'paper' "$program" --help

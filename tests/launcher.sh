@@ -1,24 +1,12 @@
 #!/usr/bin/env bash
 # launcher.sh SOURCE PROGRAM: what a user meets before there is a program, and where one may be run but not built.
 set -uo pipefail
+tests=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd)
 source=$1 program=$2
 work=$(mktemp -d)
 trap 'chmod -R u+w "$work"; rm -rf "$work"' EXIT
 chmod 755 "$work"
-failures=0 checks=0
-# expect STATUS PATTERN COMMAND...: exit status and a pattern in what is printed
-expect() {
-  local status=$1 pattern=$2 out got
-  shift 2
-  out=$("$@" 2>&1)
-  got=$?
-  checks=$((checks + 1))
-  if [ "$got" -ne "$status" ] || ! grep -qE -- "$pattern" <<<"$out"; then
-    echo "expected status $status and /$pattern/, got $got from: $*"
-    echo "$out" | tail -n 15
-    failures=$((failures + 1))
-  fi
-}
+source "$tests/expect.sh"
 # Somebody who may not write here; root may everywhere.
 as_another() {
   if [ "$(id -u)" = 0 ]; then setpriv --reuid=65534 --regid=65534 --clear-groups "$@"; else "$@"; fi
