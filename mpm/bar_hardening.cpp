@@ -1,0 +1,8 @@
+#include "mpm/bars.hpp"
+
+namespace diptych::mpm::bars {
+
+template Record run(const Scene&, const std::vector<material::Hardening>&, int, const std::vector<double>&, Scheme,
+                    const Stepping&);
+
+}  // namespace diptych::mpm::bars
