@@ -425,9 +425,8 @@ class Body {
 
   /// Strains, what follows from them in the cells, and the internal forces of both.
   void strain(const VectorField& velocity, double dt) {
-    if (!staggered && !damping_) {
-      strain_and_force<Do::both>(velocity, dt);
-      return;
+    if constexpr (!staggered) {
+      if (!damping_) return strain_and_force<Do::both>(velocity, dt);
     }
     if constexpr (!convected) {
       strain_and_force<Do::strain>(velocity, dt);
