@@ -112,6 +112,9 @@ void read_plate_material(Table& t, Case& c) {
   if (of_damage("beta")) damage.beta = t.get("beta", not_negative(), damage.beta);
   if (of_damage("residual_stiffness"))
     damage.residual_stiffness = t.get("residual_stiffness", positive(), damage.residual_stiffness);
+  if (of_damage("closure"))
+    damage.closure = t.get("closure", one_of({"volumetric", "whole"})) == "whole" ? material::Closure::whole
+                                                                                  : material::Closure::volumetric;
   if (of_damage("volumetric")) damage.trace = t.get("volumetric", one_of({"mean", "trace"})) == "trace";
   const auto of_failure = [&](const char* key) { return t.applies(key, "model", model, {"failure-wave"}); };
   material::FailureWave failure{elastic, 0, 0};
@@ -146,6 +149,7 @@ void read_damage(Table& t, Case& c) {
   evolution.critical_strain = t.need("critical_strain", positive());
   evolution.damage_everywhere = t.get("shows", one_of({"where-critical", "everywhere"})) == "everywhere";
   if (!t.get("capped", flag(), true)) evolution.cap = std::numeric_limits<double>::infinity();
+  evolution.heals = t.get("heals", flag(), evolution.heals);
   const std::string rate = t.need("rate", one_of({"reference", "tracked"}));
   evolution.rate = rate == "tracked" ? diffusion::Rate::tracked : diffusion::Rate::reference;
   if (t.applies("reference_rate", "rate", rate, {"reference"}))
@@ -177,6 +181,8 @@ void read_diffusion(Table& t, Case& c) {
   diffusion::Diffusion d;
   d.characteristic_time = t.need("T_d", positive());
   d.mobility = t.need("lambda1", not_negative());
+  d.floor = t.get("floor", not_negative(), d.floor);
+  if (d.floor > 1) t.place("floor").refuse(words(d.floor), "0 to 1, a part of lambda1");
   d.crack_volume = t.need("lambda2", positive());
   d.rupture_strain = t.need("rupture_strain", positive());
   using diffusion::Source;

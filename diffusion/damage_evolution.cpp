@@ -26,8 +26,8 @@ double area_under_circle(double r, double x0, double x1) {
 }  // namespace
 
 double diffusivity(const Diffusion& diffusion, double volumetric_strain) {
-  return clip(diffusion.mobility * ((diffusion.rupture_strain - volumetric_strain) / diffusion.rupture_strain), 0,
-              diffusion.mobility);
+  return clip(diffusion.mobility * ((diffusion.rupture_strain - volumetric_strain) / diffusion.rupture_strain),
+              diffusion.floor * diffusion.mobility, diffusion.mobility);
 }
 
 double area_within(double radius, double x0, double x1, double y0, double y1) {
@@ -50,6 +50,7 @@ DamageEvolution::DamageEvolution(const Evolution& evolution, const Grid& grid) :
     require(d.crack_volume > 0, "the crack volume must be > 0");
     require(d.rupture_strain > 0, "the rupture strain must be > 0");
     require(d.mobility >= 0, "the mobility must be >= 0");
+    require(d.floor >= 0 && d.floor <= 1, "the floor must lie between 0 and 1");
     require(d.source != Source::zone || d.radius >= 0, "the radius must be >= 0");
     concentration_.emplace(grid, d.scheme, d.reading, d.drift);
     place_source();
@@ -175,8 +176,9 @@ void DamageEvolution::diffuse(std::span<const double> strain, double dt) {
     if (!critical_.empty() && !critical_[cell]) continue;
     const std::size_t left = cell + cell / columns, above = left + columns + 1;
     const double mean = 0.25 * ((c[left] + c[above + 1]) + (c[left + 1] + c[above]));
-    const double density = d.crack_volume * mean;             // eq. 27
-    crack_density_[cell] = clip(density, 0, evolution_.cap);  // schemes that are not positive may undershoot
+    // Eq. 27. Schemes that are not positive may undershoot.
+    const double density = clip(d.crack_volume * mean, 0, evolution_.cap);
+    if (evolution_.heals || !(density <= crack_density_[cell])) crack_density_[cell] = density;
   }
 }
 

@@ -30,8 +30,12 @@ enum class Source {
 struct Diffusion {
   double characteristic_time = 0.01;  ///< T_d [s]
   double mobility = 500;              ///< λ1 [m²/s]
-  double crack_volume = 0.01;         ///< λ2 [m³]
-  double rupture_strain = 0.01;       ///< ε_vf
+  /// Least part of λ1 that is left of eq. 25, which gives none at all beyond ε_vf: what has ruptured would not spread
+  /// any more, damage would stay in one row of cells however fine, and its amount fall with the mesh. 0: eq. 25 as
+  /// printed.
+  double floor = 0.1;
+  double crack_volume = 0.01;    ///< λ2 [m³]
+  double rupture_strain = 0.01;  ///< ε_vf
   Source source = Source::zone;
   double radius = 0.1;           ///< of the weak zone [m]
   bool per_crack_volume = true;  ///< Q/λ2, so that C_d grows by eq. 23a in T_d; false: eq. 26 as printed
@@ -48,6 +52,7 @@ struct Evolution {
   double critical_strain = 0.002;  ///< ε_v1: the source acts, and damage shows in the stress, only where it was reached
   bool damage_everywhere = false;  ///< damage shows in the stress without regard to the critical state
   double cap = 9.0 / 16;           ///< largest C_d that is handed out: D = 1; infinite: none
+  bool heals = false;  ///< C_d that is handed out falls where C diffuses away, and the solid stiffens under its load
   Rate rate = Rate::reference;
   double reference_rate = 100;  ///< [1/s]
   double rate_floor = 1;        ///< [1/s]
@@ -55,7 +60,7 @@ struct Evolution {
   std::optional<Diffusion> diffusion;
 };
 
-/// Eq. 25, within [0, λ1].
+/// Eq. 25, within [floor λ1, λ1].
 double diffusivity(const Diffusion&, double volumetric_strain);
 
 /// Area of [x0, x1] × [y0, y1], 0 ≤ x0 ≤ x1 and 0 ≤ y0 ≤ y1, that lies within radius ≥ 0 of the origin. Exact to
@@ -73,7 +78,7 @@ class DamageEvolution {
   /// does.
   void advance(std::span<const double> volumetric_strain, double dt);
 
-  std::span<const double> crack_density() const;  ///< C_d of each cell, ≤ cap
+  std::span<const double> crack_density() const;  ///< C_d that each cell's stiffness sees, ≤ cap
   std::span<const double> concentration() const;  ///< C of each node; empty without diffusion
   double total() const;                           ///< ∫C dA
   double fed() const;                             ///< what the source has given since the start: ∫∫Q dA dt

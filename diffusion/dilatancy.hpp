@@ -28,7 +28,7 @@ struct Spread {
   /// true the overshoot of a front that rings is kept for ever, and it is as large on every mesh: the damage then
   /// spreads from what no mesh gets rid of, and each method has a front of its own.
   bool keeps_largest = false;
-  std::optional<int> face = {};    ///< column of nodes at the impact face, 0 to nx; none: nothing sets the damage off
+  std::optional<int> face = {};  ///< column of nodes at the impact face, 0 to nx; none: nothing sets the damage off
 };
 
 /// ∂V_d/∂t = ∇·(d ∇V_d), no flux through the walls. The face's nodes hold the mean ceiling of the cells beside them

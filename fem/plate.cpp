@@ -92,10 +92,10 @@ struct RowSums {
   Vector momentum{};
 };
 
-/// The solid in tension where it is cracked.
+/// The solid where it is cracked.
 struct Cracked {
   double crack_density = 0;
-  Stiffness stiffness;
+  material::CrackedStiffness stiffness;
 };
 
 /// What viscosity does in a row of cells.
@@ -727,7 +727,7 @@ class Body {
 
   /// Stresses of a cell at uⁿ; false if they are those of the whole solid, which are not kept.
   bool answer(Index cell) {
-    Stiffness in_tension = solid_;
+    material::CrackedStiffness now{solid_, solid_};
     bool own = false;
     if constexpr (damaging) {
       const double crack_density = evolution_->crack_density()[cell];
@@ -736,7 +736,7 @@ class Body {
         if (crack_density != cracked.crack_density) {
           cracked = {crack_density, damage().damaged_stiffness(crack_density)};
         }
-        in_tension = cracked.stiffness;
+        now = cracked.stiffness;
         own = true;
       }
     }
@@ -755,13 +755,14 @@ class Body {
       } else if constexpr (plastic) {
         PlasticStrain& flown = plastic_[cell][t];
         if (tension) {  // plastic strain is deviatoric
-          stress[t] = in_tension.stress(strain) - flown * (2 * in_tension.shear);
+          stress[t] = now.open.stress(strain) - flown * (2 * now.open.shear);
         } else {
-          stress[t] = plate_.compression->stress(elastic(plate_), strain, flown);
+          double dissipated = 0;
+          stress[t] = plate_.compression->stress(now.closed, strain, flown, dissipated);
         }
         own = own || flown.xx != 0 || flown.yy != 0 || flown.xy != 0;
       } else {
-        stress[t] = (tension ? in_tension : solid_).stress(strain);
+        stress[t] = (tension ? now.open : now.closed).stress(strain);
       }
     }
     if (own) stress_[cell] = stress;
@@ -978,10 +979,11 @@ class Body {
     }
     if constexpr (plastic) {
       const PlasticStrain& p = plastic_[cell][t];
-      const bool tension = here.xx + here.yy >= 0;
-      const Stiffness& solid = damaging && tension && answers_[cell] && cracked_[cell].crack_density != 0
-                                   ? cracked_[cell].stiffness
-                                   : solid_;
+      Stiffness solid = solid_;
+      if constexpr (damaging) {
+        if (answers_[cell] && cracked_[cell].crack_density != 0)
+          solid = here.xx + here.yy >= 0 ? cracked_[cell].stiffness.open : cracked_[cell].stiffness.closed;
+      }
       const double zz = (solid.normal + 2 * solid.cross) * (here.xx + here.yy) - stress.xx - stress.yy;
       flown = stress.contract(p) - zz * (p.xx + p.yy);
     }

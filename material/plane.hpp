@@ -35,6 +35,13 @@ inline Stiffness stiffness(double E, double nu, Plane plane) {
   return {lame + 2 * shear, lame, shear};
 }
 
+/// From the bulk modulus K and the shear modulus G of the solid [Pa]; in plane stress ε_zz is that of no σ_zz.
+inline Stiffness stiffness_of_moduli(double K, double G, Plane plane) {
+  if (plane == Plane::strain) return {K + 4 * G / 3, K - 2 * G / 3, G};
+  const double sum = 3 * K + 4 * G;
+  return {4 * G * (3 * K + G) / sum, 2 * G * (3 * K - 2 * G) / sum, G};
+}
+
 /// Linear elasticity in the plane.
 struct PlaneElastic {
   double youngs_modulus = 0;  ///< E [Pa], > 0
@@ -44,6 +51,7 @@ struct PlaneElastic {
 
   Stiffness stiffness() const { return material::stiffness(youngs_modulus, poissons_ratio, plane); }
   double bulk_modulus() const { return youngs_modulus / (3 * (1 - 2 * poissons_ratio)); }  ///< K [Pa]
+  double shear_modulus() const { return youngs_modulus / (2 * (1 + poissons_ratio)); }     ///< G [Pa]
   double pressure_wave_speed() const { return std::sqrt(stiffness().normal / density); }   ///< c_d [m/s]
   double shear_wave_speed() const { return std::sqrt(stiffness().shear / density); }       ///< c_s [m/s]
   /// c = √(E/ρ) of eqs. 23a and 26 [m/s].

@@ -8,16 +8,32 @@
 
 namespace diptych::material {
 
-/// In tension (mean strain ≥ 0) the stiffness is that of the cracked solid; in compression cracks are closed and it is
-/// the whole one's.
+/// What is whole again where the mean strain is negative. The paper degrades the solid in tension alone and does not
+/// say.
+enum class Closure {
+  /// K; cracks close against a normal strain, not against a shear. At a given C_d the stress is then continuous and the
+  /// derivative of an energy: a closed cycle of strains gives nothing and takes nothing.
+  volumetric,
+  /// K and G. Where ε_v changes sign under a shear strain a, the stress jumps: turned that way and back, with the shear
+  /// put on in tension and taken off in compression, the solid gives 2 (G − Ḡ) a² a turn, without end.
+  whole
+};
+
+/// A cracked solid where cracks are open (mean strain ≥ 0) and where they are closed.
+struct CrackedStiffness {
+  Stiffness open, closed;
+};
+
+/// Neither modulus ever rises with C_d, so that damage takes energy and never gives any.
 struct TensileDamage {
   PlaneElastic elastic;
-  double fracture_toughness = 1e6;   ///< K_IC [Pa √m]
-  double flaw_density = 5e22;        ///< k [1/m³]
-  double exponent = 7;               ///< m
-  double beta = 1;                   ///< fraction β of damage in unloading; α = 16β/9
-  double residual_stiffness = 1e-3;  ///< least (1 − D) that enters the stiffness; our choice
-  bool trace = false;                ///< reads ε_v as tr ε; false: as tr ε / 3, our choice
+  double fracture_toughness = 1e6;        ///< K_IC [Pa √m]
+  double flaw_density = 5e22;             ///< k [1/m³]
+  double exponent = 7;                    ///< m
+  double beta = 1;                        ///< fraction β of damage in unloading; α = 16β/9
+  double residual_stiffness = 1e-3;       ///< least part of K and of G that is left; our choice
+  Closure closure = Closure::volumetric;  ///< our choice
+  bool trace = false;                     ///< reads ε_v as tr ε; false: as tr ε / 3, our choice
 
   double alpha() const { return 16 * beta / 9; }
   /// ε_v of a strain in the plane.
@@ -43,12 +59,24 @@ struct TensileDamage {
     const double nu = damaged_poissons_ratio(crack_density);
     return std::min(16 * (1 - nu * nu) / (9 * (1 - 2 * nu)) * crack_density, 1.0);  // this order keeps NaN
   }
-  /// Of the cracked solid in tension, from K̄ (eq. 23c) and ν̄ (eq. 23d); at C_d = 0 to the bit the whole solid's.
-  Stiffness damaged_stiffness(double crack_density) const {
-    if (crack_density == 0) return elastic.stiffness();
-    const double nu = damaged_poissons_ratio(crack_density);
-    const double bulk = std::max(1 - damage(crack_density), residual_stiffness) * elastic.bulk_modulus();
-    return material::stiffness(3 * bulk * (1 - 2 * nu), nu, elastic.plane);
+  /// K̄, eq. 23c [Pa].
+  double damaged_bulk_modulus(double crack_density) const {
+    return std::max(1 - damage(crack_density), residual_stiffness) * elastic.bulk_modulus();
+  }
+  /// Ḡ of K̄ and ν̄ (eqs. 23c and 23d) [Pa], at most the whole solid's: where ν > 0.395 a little damage would raise it.
+  double damaged_shear_modulus(double crack_density) const {
+    const double nu = damaged_poissons_ratio(crack_density), whole = elastic.shear_modulus();
+    const double shear = 1.5 * (1 - damage(crack_density)) * elastic.bulk_modulus() * (1 - 2 * nu) / (1 + nu);
+    return std::min(std::max(shear, residual_stiffness * whole), whole);
+  }
+  /// At C_d = 0 to the bit the whole solid's.
+  CrackedStiffness damaged_stiffness(double crack_density) const {
+    const Stiffness whole = elastic.stiffness();
+    if (crack_density == 0) return {whole, whole};
+    const double shear = damaged_shear_modulus(crack_density);
+    const auto with_bulk = [&](double bulk) { return stiffness_of_moduli(bulk, shear, elastic.plane); };
+    return {with_bulk(damaged_bulk_modulus(crack_density)),
+            closure == Closure::whole ? whole : with_bulk(elastic.bulk_modulus())};
   }
 };
 

@@ -26,6 +26,29 @@ struct TensorField {
   std::size_t bytes() const { return (xx.capacity() + yy.capacity() + xy.capacity()) * sizeof(double); }
 };
 
+/// A stiffness of every cell, one array a modulus.
+struct StiffnessField {
+  std::vector<double> normal, cross, shear;
+  void assign(std::size_t count, const material::Stiffness& all) {
+    normal.assign(count, all.normal);
+    cross.assign(count, all.cross);
+    shear.assign(count, all.shear);
+  }
+  void set(std::size_t k, const material::Stiffness& s) {
+    normal[k] = s.normal, cross[k] = s.cross, shear[k] = s.shear;
+  }
+  material::Stiffness operator[](std::size_t k) const { return {normal[k], cross[k], shear[k]}; }
+  std::size_t bytes() const { return (normal.capacity() + cross.capacity() + shear.capacity()) * sizeof(double); }
+};
+
+/// A row of cells of it, as plain addresses.
+struct StiffnessRow {
+  const double *normal = nullptr, *cross = nullptr, *shear = nullptr;
+  StiffnessRow() = default;
+  StiffnessRow(const StiffnessField& field, std::size_t first)
+      : normal(field.normal.data() + first), cross(field.cross.data() + first), shear(field.shear.data() + first) {}
+};
+
 /// What changes the law of a cell.
 enum class Damage { none, cracks, failure_wave };
 
@@ -40,9 +63,7 @@ class Law {
     if constexpr (damaging) {
       material_ = std::get<material::TensileDamage>(plate.material);
       crack_density_.assign(cells, 0);
-      normal_.assign(cells, whole_.normal);
-      cross_.assign(cells, whole_.cross);
-      shear_.assign(cells, whole_.shear);
+      for (StiffnessField* field : {&open_, &closed_}) field->assign(cells, whole_);
     }
     if constexpr (plastic) {
       compression_ = *plate.compression;
@@ -53,7 +74,7 @@ class Law {
   /// The law of a row of cells and its particles: plain addresses, for a loop.
   struct Row {
     material::Stiffness whole;
-    const double *normal = nullptr, *cross = nullptr, *shear = nullptr;
+    StiffnessRow open, closed;
     material::FailureWave failure;
     const double* dilatancy = nullptr;
     const material::Compression* compression = nullptr;
@@ -80,9 +101,10 @@ class Law {
     [[gnu::always_inline]] material::Stiffness stiffness(const material::Tensor& strain,
                                                          [[maybe_unused]] std::size_t i) const {
       if constexpr (damaging) {
-        const double n = normal[i], c = cross[i], s = shear[i];
-        const bool open = strain.xx + strain.yy >= 0;
-        return {open ? n : whole.normal, open ? c : whole.cross, open ? s : whole.shear};
+        const double normal = open.normal[i], cross = open.cross[i], shear = open.shear[i];
+        const double normal_closed = closed.normal[i], cross_closed = closed.cross[i], shear_closed = closed.shear[i];
+        const bool tension = strain.xx + strain.yy >= 0;
+        return {tension ? normal : normal_closed, tension ? cross : cross_closed, tension ? shear : shear_closed};
       } else {
         return {whole.normal, whole.cross, whole.shear};
       }
@@ -93,9 +115,8 @@ class Law {
     Row r;
     r.whole = whole_;
     if constexpr (damaging) {
-      r.normal = normal_.data() + first_cell;
-      r.cross = cross_.data() + first_cell;
-      r.shear = shear_.data() + first_cell;
+      r.open = StiffnessRow(open_, first_cell);
+      r.closed = StiffnessRow(closed_, first_cell);
     }
     if constexpr (failing) {
       r.failure = failure_;
@@ -112,9 +133,10 @@ class Law {
 
   material::Stiffness stiffness(const material::Tensor& strain, [[maybe_unused]] std::size_t cell) const {
     if constexpr (damaging) {
-      if (strain.xx + strain.yy >= 0) return {normal_[cell], cross_[cell], shear_[cell]};
+      return strain.xx + strain.yy >= 0 ? open_[cell] : closed_[cell];
+    } else {
+      return whole_;
     }
-    return whole_;
   }
   /// Stress that stands, for the books and for samples.
   material::Tensor stress(const material::Tensor& strain, std::size_t cell, [[maybe_unused]] std::size_t p) const {
@@ -140,10 +162,9 @@ class Law {
     for (std::size_t cell = 0; cell < density.size(); ++cell) {
       if (density[cell] == crack_density_[cell]) continue;
       crack_density_[cell] = density[cell];
-      const material::Stiffness now = material_.damaged_stiffness(density[cell]);
-      normal_[cell] = now.normal;
-      cross_[cell] = now.cross;
-      shear_[cell] = now.shear;
+      const auto [open, closed] = material_.damaged_stiffness(density[cell]);
+      open_.set(cell, open);
+      closed_.set(cell, closed);
     }
   }
 
@@ -154,8 +175,7 @@ class Law {
   double ceiling(const material::Tensor& mean) const { return failure_.open_ceiling(mean); }
 
   std::size_t bytes() const {
-    return plastic_strain_.bytes() +
-           (crack_density_.capacity() + normal_.capacity() + cross_.capacity() + shear_.capacity()) * sizeof(double);
+    return plastic_strain_.bytes() + crack_density_.capacity() * sizeof(double) + open_.bytes() + closed_.bytes();
   }
 
  private:
@@ -164,7 +184,8 @@ class Law {
   material::FailureWave failure_;
   std::span<const double> dilatancy_;
   material::Compression compression_;
-  std::vector<double> crack_density_, normal_, cross_, shear_;  // of each cell, the last three in tension
+  std::vector<double> crack_density_;  // of each cell
+  StiffnessField open_, closed_;
   TensorField plastic_strain_;
 };
 
