@@ -165,8 +165,8 @@ Trial trial_of(const Case& c) {
 const Names plate_invariants{"energy.drift",        "energy.lost",         "energy.closure",    "momentum.drift",
                              "bits.repeat",         "bits.threads",        "bits.mirror",       "bits.power-of-two",
                              "bits.undamaged",      "numbers.largest",     "area.error",        "concentration.balance",
-                             "concentration.least", "cross.forward-euler", "energy.dissipated", "dilatancy.ahead",
-                             "impact.left-over"};
+                             "concentration.least", "cross.forward-euler", "energy.dissipated", "energy.given-back",
+                             "energy.excess",       "dilatancy.ahead",     "impact.left-over"};
 const Names failure_measures{"failure.speed", "failure.delay", "failure.slowing"};
 const Names plate_fields{"displacement", "velocity", "stress", "concentration"};
 

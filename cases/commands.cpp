@@ -80,7 +80,7 @@ class Failed {
 std::vector<reports::Case> measure(const std::vector<Case>& cases, const Options& options, Purpose purpose,
                                    const std::atomic<bool>& cancelled) {
   const bool judge_only = purpose == Purpose::judge;
-  Running running{threads_of(options), &cancelled, options.ledger, options.fields, judge_only};
+  Running running{threads_of(options), &cancelled, options.books, options.fields, judge_only};
   running.progress = progress();
   Failed failed(cases);
   if (options.fail_fast) {
@@ -289,7 +289,7 @@ int run_command(const Options& options, const std::atomic<bool>& cancelled) {
     write_tables(result, options.out / "tables");
     fmt::print("{}\n", (options.out / "tables" / (result.id + ".{txt,csv,tex}")).string());
     if (options.fields) write_fields(result, options.out / "fields" / result.id);
-    if (options.ledger) write_ledgers(result, options.out / "ledgers" / result.id);
+    if (options.books == Books::lines) write_ledgers(result, options.out / "ledgers" / result.id);
   }
   const int undrawn = draw_figures(results, options.out / "figures", {});
   reports::write_file(options.out / "results.jsonl", reports::results_jsonl(results, provenance()));

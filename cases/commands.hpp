@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "material/scene.hpp"
+
 namespace diptych::cases {
 
 struct Options {
@@ -16,10 +18,10 @@ struct Options {
   bool quick = false;
   bool fail_fast = false;  ///< gate: no further runs for a gate that has failed
   bool declarations = false;
-  bool fields = false;  ///< run: also write the fields of plates at the sample times
-  bool ledger = false;
-  std::string pattern;   ///< test: only the tests whose names it fits
-  bool targets = false;  ///< test: only name what must be built for them
+  bool fields = false;       ///< run: also write the fields of plates at the sample times
+  Books books = Books::off;  ///< kept of every run, beside what gates ask for
+  std::string pattern;       ///< test: only the tests whose names it fits
+  bool targets = false;      ///< test: only name what must be built for them
 };
 
 int run_command(const Options&, const std::atomic<bool>& cancelled);

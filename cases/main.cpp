@@ -66,11 +66,15 @@ int main(int argc, char** argv) {
   auto* run = app.add_subcommand("run", "run cases and print convergence tables");
   add_cases(run, true);
   add_out(run);
-  run->add_flag("--ledger", options.ledger, "also write every step's energies, work, loss and momentum (CSV)");
+  bool ledger = false;
+  run->add_flag("--ledger", ledger, "also write every step's energies, work, loss and momentum (CSV)");
   run->add_flag("--fields", options.fields,
                 "also write plates' fields at the sample times (VTU and PVD, for ParaView)");
   add_threads(run);
-  run->callback([&] { status = run_command(options, cancelled); });
+  run->callback([&] {
+    options.books = ledger ? diptych::Books::lines : diptych::Books::sums;  // its tables show them
+    status = run_command(options, cancelled);
+  });
 
   auto* gate = app.add_subcommand("gate", "run and judge; 0 only if every declared gate was judged and passed");
   add_cases(gate, false);

@@ -9,12 +9,14 @@
 
 namespace diptych::cases {
 
-Stepping plan_steps(double end, double asked, const std::vector<double>& times, bool ledger) {
+Stepping plan_steps(double end, const TimeStep& step, const std::vector<double>& times, Books books) {
+  const double asked = step.asked;
   Stepping stepping;
+  stepping.limit = step.limit;
   stepping.steps = std::max(1L, static_cast<long>(std::ceil(end / asked * (1 - round_off))));
   stepping.time_step = end / static_cast<double>(stepping.steps);
   for (const double time : times) stepping.sample_after.push_back(std::max(1L, std::lround(time / stepping.time_step)));
-  stepping.books = ledger ? Books::sums : Books::off;
+  stepping.books = books;
   return stepping;
 }
 
@@ -25,6 +27,15 @@ mpm::Scheme scheme_of(const std::string& method) {
 bool asks_for(const Case& c, const Leaf& leaf, const std::string& quantity) {
   return std::any_of(c.gates.begin(), c.gates.end(),
                      [&](const GateSpec& gate) { return gate.quantity == quantity && matches(gate.where, leaf); });
+}
+
+Books books_of(const Case& c, const Leaf& leaf, Books least) {
+  if (!c.ledger) return Books::off;
+  const bool asked = std::any_of(c.gates.begin(), c.gates.end(), [&](const GateSpec& gate) {
+    const auto of = [&](const char* what) { return gate.quantity.starts_with(what); };
+    return (of("energy.") || of("momentum.") || of("plastic.work")) && matches(gate.where, leaf);
+  });
+  return asked ? std::max(least, Books::sums) : least;
 }
 
 std::string status_of(Outcome outcome) {
@@ -49,6 +60,8 @@ void measure_ledger(double mass, const LedgerSums& sums, const std::vector<Ledge
   run.measures["energy.lost"] = relative(sums.last.contact + sums.last.scheme + sums.last.lost, sums.held);
   run.measures["energy.dissipated"] = relative(sums.last.dissipated, sums.held);
   run.measures["energy.closure"] = relative(sums.lost, sums.held);
+  run.measures["energy.given-back"] = relative(sums.given_back, sums.held);
+  run.measures["energy.excess"] = relative(sums.excess, sums.put_in);
   run.measures["momentum.drift"] = relative(sums.momentum, std::sqrt(2 * mass * sums.kinetic));
 }
 

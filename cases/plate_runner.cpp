@@ -240,6 +240,8 @@ void measure_limit(const Case& c, const Leaf& leaf, const Plate& plate, const Ti
     const auto stable = [&](double courant) {
       Stepping trial;
       trial.time_step = courant * step.unit;
+      trial.limit = predicted * step.unit;
+      trial.gains = 1;  // what is asked is whether it grows without end
       trial.steps = gate.steps;
       trial.cancelled = cancelled;
       return solve(c, plate, leaf, trial).outcome == Outcome::completed;
@@ -311,9 +313,8 @@ reports::Run run_plate(const Case& whole, const Leaf& leaf, const TimeStep& step
   const Case c = with_parameters(whole, leaf);
   reports::Run run = describe_plate(c, leaf);
   const auto exact = make_plane_exact(c);
-  Stepping stepping = plan_steps(c.times.back(), step.asked, c.times, c.ledger);
+  Stepping stepping = plan_steps(c.times.back(), step, c.times, books_of(c, leaf, running.books));
   stepping.cancelled = running.cancelled;
-  if (running.keep_ledger && c.ledger) stepping.books = Books::lines;
   run.time_step = stepping.time_step;
   run.time_step_limit = step.limit;
   run.courant = stepping.time_step / step.unit;
@@ -329,6 +330,10 @@ reports::Run run_plate(const Case& whole, const Leaf& leaf, const TimeStep& step
                                                           : run_diffusion(c, leaf, stepping);
   run.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   take_outcome(record, run);
+  if (mechanical(c)) {
+    const double mass = elastic(plate).density * plate.width * plate.height;
+    measure_ledger(mass, record.sums, record.ledger, run);
+  }
   if (record.outcome != Outcome::completed) return run;
 
   for (std::size_t i = 0; i < record.snapshots.size(); ++i)
@@ -344,8 +349,6 @@ reports::Run run_plate(const Case& whole, const Leaf& leaf, const TimeStep& step
         static_cast<double>(record.diffusion_updates) / static_cast<double>(record.steps);
   measure_gauges(c, leaf, record, stepping.time_step, run);
   if (mechanical(c)) {
-    const double mass = elastic(plate).density * plate.width * plate.height;
-    if (c.ledger) measure_ledger(mass, record.sums, record.ledger, run);
     measure_bits(c, leaf, plate, stepping, record, run);
     if ((c.plate->evolution && c.plate->evolution->diffusion) || c.plate->spread)
       measure_against_forward_euler(c, leaf, plate, stepping, record, run);

@@ -50,10 +50,10 @@ double cell_time(const Scene& scene, const Leaf& leaf) {
   return scene.bars[0].length / leaf.cells / largest_wave_speed(scene);
 }
 
-Stepping plan(const Case& c, const Leaf& leaf, const TimeStep& step) {
+Stepping plan(const Case& c, const Leaf& leaf, const TimeStep& step, Books least) {
   std::vector<double> times;
   for (const double time : c.times) times.push_back(instant(c, leaf, time));
-  return plan_steps(times.back(), step.asked, times, c.ledger);
+  return plan_steps(times.back(), step, times, books_of(c, leaf, least));
 }
 
 /// Numbers that differ between two records after scaling; a different number of samples counts as one more. NaN where
@@ -158,6 +158,8 @@ double find_limit(const Scene& scene, const Leaf& leaf, double predicted, long s
   const auto stable = [&](double courant) {
     Stepping trial;
     trial.time_step = courant * cell_time(scene, leaf);
+    trial.limit = predicted * cell_time(scene, leaf);
+    trial.gains = 1;  // what is asked is whether it grows without end
     trial.steps = steps;
     trial.cancelled = cancelled;
     return solve(scene, leaf, trial).outcome == Outcome::completed;
@@ -309,9 +311,8 @@ reports::Run run_leaf(const Case& whole, const Leaf& leaf, const TimeStep& step,
   reports::Run run = describe(c, leaf);
   const Scene scene = make_scene(c, leaf.cells);
   const auto exact = make_exact(c, leaf);
-  Stepping stepping = plan(c, leaf, step);
+  Stepping stepping = plan(c, leaf, step, running.books);
   stepping.cancelled = running.cancelled;
-  if (running.keep_ledger && c.ledger) stepping.books = Books::lines;
   run.time_step = stepping.time_step;
   run.time_step_limit = step.limit;
   run.courant = stepping.time_step / step.unit;
@@ -331,6 +332,9 @@ reports::Run run_leaf(const Case& whole, const Leaf& leaf, const TimeStep& step,
   run.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 
   take_outcome(record, run);
+  double mass = 0;
+  for (const BarSpec& bar : c.bars) mass += material::density(bar.material) * bar.length;
+  measure_ledger(mass, record.sums, record.ledger, run);
   if (record.outcome != Outcome::completed) return run;
 
   const auto taken_at = [&](const std::vector<long>& steps) {
@@ -348,9 +352,6 @@ reports::Run run_leaf(const Case& whole, const Leaf& leaf, const TimeStep& step,
     const double time = static_cast<double>(record.snapshots[i].step) * stepping.time_step;
     run.samples.push_back(measure_sample(c, leaf, record.snapshots[i], c.times[i], time, exact.get(), run));
   }
-  double mass = 0;
-  for (const BarSpec& bar : c.bars) mass += material::density(bar.material) * bar.length;
-  measure_ledger(mass, record.sums, record.ledger, run);
   measure_outcomes(scene, spans_of(c, leaf.cells), record, stepping.time_step, exact.get(), run);
   measure_early_contact(c, leaf, record, run);
   measure_bits(c, leaf, scene, stepping, record, run);

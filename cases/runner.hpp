@@ -7,6 +7,7 @@
 
 #include "cases/case.hpp"
 #include "cases/leaf.hpp"
+#include "cases/measures.hpp"
 #include "material/record.hpp"
 #include "reports/results.hpp"
 
@@ -16,7 +17,7 @@ namespace diptych::cases {
 struct Running {
   int threads = 1;
   const std::atomic<bool>* cancelled = nullptr;  ///< turns true where runs should stop soon
-  bool keep_ledger = false;                      ///< keep every step's line of the ledger in the results
+  Books books = Books::off;                      ///< kept at least; their sums also where a gate asks for them
   bool keep_fields = false;                      ///< keep all fields of plates at the sample times in the results
   bool judged_only = false;                      ///< leave out runs that no gate of their case speaks of
   bool cheapest_first = false;                   ///< instead of the longest, with which the threads end together
@@ -27,12 +28,6 @@ struct Running {
   std::function<void(std::size_t done, std::size_t total)> progress = {};  ///< after each run, likewise
 };
 
-/// The time step that a leaf asks for and the largest stable one. Courant number 1 is Δt = h/c of the fastest bar; of a
-/// plate h/c_d, h the smaller side of a cell; of diffusion alone h²/d with the largest diffusivity.
-struct TimeStep {
-  double asked, limit;  ///< [s]
-  double unit;          ///< Δt of Courant number 1 [s]
-};
 TimeStep step_of(const Case&, const Leaf&);
 
 /// One run of a leaf's scene, measured: errors, predictions, ledger, invariants and limits that the case's gates ask

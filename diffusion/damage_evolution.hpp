@@ -33,7 +33,7 @@ struct Diffusion {
   /// Least part of λ1 that is left of eq. 25, which gives none at all beyond ε_vf: what has ruptured would not spread
   /// any more, damage would stay in one row of cells however fine, and its amount fall with the mesh. 0: eq. 25 as
   /// printed.
-  double floor = 0.1;
+  double floor = 0.2;
   double crack_volume = 0.01;    ///< λ2 [m³]
   double rupture_strain = 0.01;  ///< ε_vf
   Source source = Source::zone;

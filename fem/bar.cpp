@@ -194,20 +194,20 @@ class Bars {
   }
 
   // Central differences: (uⁿ, σⁿ, vⁿ⁻½) → (uⁿ⁺¹, σⁿ⁺¹, vⁿ⁺½).
-  void step(long n, Ledger* ledger) {
+  void step(long n, Ledger& ledger) {
     const Kick kick = kick_around(n, dt_);
     for (auto& mesh : meshes_) mesh.internal_force();  // eq. 19
     external_force(kick);                              // eqs. 17, 20
     contact_force(n, kick.length);
-    if (ledger) ledger->before_kick(work_rate(), impulse_rate(), kick.length);
-    if (ledger) ledger->take_by_contact(-kick.length * contact_work_rate() / 2);
+    ledger.before_kick(work_rate(), impulse_rate(), kick.length);
+    ledger.take_by_contact(-kick.length * contact_work_rate() / 2);
     for (auto& mesh : meshes_) mesh.integrate_momentum(kick.length);  // eq. 18
     hold_supports();
-    if (ledger) ledger->after_kick(work_rate(), kick.length);
-    if (ledger) ledger->take_by_contact(-kick.length * contact_work_rate() / 2);
+    ledger.after_kick(work_rate(), kick.length);
+    ledger.take_by_contact(-kick.length * contact_work_rate() / 2);
     for (auto& mesh : meshes_) mesh.move(dt_);
-    if (ledger) {
-      update_stress<true>(ledger);
+    if (ledger.due()) {
+      update_stress<true>(&ledger);
     } else {
       update_stress<false>(nullptr);
     }
@@ -222,6 +222,7 @@ class Bars {
   }
 
   static std::string trouble() { return {}; }
+  static double gives_back() { return 0; }
   double first_ledger_time() const { return dt_ / 2; }
   double energy() const {
     double sum = 0;
@@ -311,7 +312,7 @@ class Bars {
       double kinetic = 0;
       for (const auto& mesh : meshes_) kinetic += mesh.kinetic_energy();
       ledger->take_by_viscosity(sums.viscous_before);
-      ledger->close_line(kinetic, sums.strain, sums.dissipated, momentum());
+      ledger->close_line(kinetic, sums.strain, sums.dissipated, momentum(), -sums.viscous_after / 2);
       ledger->take_by_viscosity(sums.viscous_after);
       ledger->take_by_scheme(sums.lost);
     }

@@ -220,6 +220,7 @@ class Body {
       if (stepping.books != Books::off) {
         recoverable_.resize(nx_ * ny_);
         answered_.resize(nx_ * ny_);
+        taken_.resize(ny_);
       }
     }
     if constexpr (plastic) plastic_.resize(nx_ * ny_);
@@ -237,35 +238,33 @@ class Body {
       q_.resize(nx_ * ny_);
       drag_.resize(ny_);
     }
-    if constexpr (dissipative) update_stress();
+    if constexpr (dissipative) update_stress(false);
     place_gauges(stepping.steps);
   }
 
   // Central differences: (uⁿ, σⁿ, vⁿ⁻½) → (uⁿ⁺¹, σⁿ⁺¹, vⁿ⁺½). Forces, kick and drift go by rows, in one sweep.
-  void step(long n, Ledger* ledger) {
+  void step(long n, Ledger& ledger) {
     const Kick kick = kick_around(n, dt_);
     external_force(kick);  // eqs. 17b, 20
-    if (ledger) note_velocities();
+    note_velocities();
     for_bands([&](Band& band) { sweep(band, kick.length); });  // eqs. 19, 18
     close_rows(kick.length);
     move_platens(kick.length);
     drive_supports((static_cast<double>(n) + 0.5) * dt_);
-    if (ledger) {
-      keep_work(kick.length, *ledger);
-      measure_energies();
-      if constexpr (viscous) ledger->take_by_viscosity(viscous_work());
-    }
+    keep_work(kick.length, ledger);
+    if (ledger.due()) measure_energies(ledger);
     if constexpr (damaging) evolve_damage();    // eqs. 23 to 28, staggered
     if constexpr (failing) spread_dilatancy();  // likewise
-    if constexpr (!linear) update_stress();
+    if constexpr (!linear) update_stress(ledger.keeps());
     if constexpr (viscous) resist();  // eqs. 21, 22
-    if (ledger) close_books(*ledger);
+    if (ledger.due()) close_books(ledger);
     if (!gauges_.empty()) read_gauges(n + 1);
   }
 
   PlateSnapshot sample(long n) const;
 
   static std::string trouble() { return {}; }
+  static double gives_back() { return failing ? material::FailureWave::gives_back : 0; }
   double first_ledger_time() const { return dt_ / 2; }
   double energy() const {
     double sum = 0;
@@ -315,7 +314,7 @@ class Body {
       sum.bytes += nodes->u.bytes() + nodes->v.bytes() + nodes->body.bytes();
     for (const Band& band : bands_) sum.bytes += sizeof band + band.below.bytes() + band.first.bytes();
     sum.bytes += of(border_) + of(stress_) + of(answers_) + of(plastic_) + of(cracked_) + of(volumetric_) +
-                 of(ceiling_) + of(q_) + of(drag_) + of(recoverable_) + of(answered_) + of(sums_);
+                 of(ceiling_) + of(q_) + of(drag_) + of(recoverable_) + of(answered_) + of(taken_) + of(sums_);
     for (const GaugeRecord& g : gauges_) sum.bytes += of(g.time) + of(g.xx) + of(g.yy) + of(g.dilatancy);
     if (evolution_) sum.bytes += evolution_->bytes();
     if (dilatancy_) sum.bytes += dilatancy_->bytes();
@@ -719,23 +718,39 @@ class Body {
     dilatancy_->advance(ceiling_, dt_);
   }
 
-  void update_stress() {
+  /// books: also adds up what the material takes.
+  void update_stress(bool books) {
     for_bands([&](Band& band) {
-      for (Index cell = band.begin * nx_; cell < band.end * nx_; ++cell) answers_[cell] = answer(cell);
+      for (Index j = band.begin; j < band.end; ++j) {
+        double taken = 0;
+        for (Index cell = j * nx_; cell < (j + 1) * nx_; ++cell)
+          answers_[cell] = answer(cell, dissipative && books ? &taken : nullptr);
+        if (dissipative && books) taken_[j] = h_.triangle_area() * taken;
+      }
     });
   }
 
-  /// Stresses of a cell at uⁿ; false if they are those of the whole solid, which are not kept.
-  bool answer(Index cell) {
+  /// Stresses of a cell at uⁿ; false if they are those of the whole solid, which are not kept. Adds to `taken` what
+  /// damage and flow dissipate of each triangle [J/m³].
+  bool answer(Index cell, double* taken) {
     material::CrackedStiffness now{solid_, solid_};
     bool own = false;
+    const auto strain_of_cell = [&] { return strains(at(corners_.u, middles_.u, cell % nx_, cell / nx_), h_); };
     if constexpr (damaging) {
       const double crack_density = evolution_->crack_density()[cell];
       Cracked& cracked = cracked_[cell];
+      if (crack_density != cracked.crack_density) {
+        const auto all_stored = [&] {
+          const Triangles strain = strain_of_cell();
+          double sum = 0;
+          for (Index t = 0; t < 4; ++t) sum += stored(cell, t, strain[t]);
+          return sum;
+        };
+        if (taken) *taken += all_stored();
+        cracked = {crack_density, damage().damaged_stiffness(crack_density)};
+        if (taken) *taken -= all_stored();
+      }
       if (crack_density != 0) {
-        if (crack_density != cracked.crack_density) {
-          cracked = {crack_density, damage().damaged_stiffness(crack_density)};
-        }
         now = cracked.stiffness;
         own = true;
       }
@@ -746,7 +761,7 @@ class Body {
       own = dilatancy != 0;
     }
     if (!own && !plastic) return false;
-    Triangles stress = strains(at(corners_.u, middles_.u, cell % nx_, cell / nx_), h_);
+    Triangles stress = strain_of_cell();
     for (Index t = 0; t < 4; ++t) {
       const Tensor strain = stress[t];
       const bool tension = strain.xx + strain.yy >= 0;
@@ -759,6 +774,7 @@ class Body {
         } else {
           double dissipated = 0;
           stress[t] = plate_.compression->stress(now.closed, strain, flown, dissipated);
+          if (taken) *taken += dissipated;
         }
         own = own || flown.xx != 0 || flown.yy != 0 || flown.xy != 0;
       } else {
@@ -915,17 +931,16 @@ class Body {
   }
 
   // With Fⁿ = −Σ A Bᵀσⁿ, the kick changes the kinetic energy by the work of the loads less ½ Σ A σⁿ:(εⁿ⁺¹ − εⁿ⁻¹). With
-  //   Sⁿ⁺½ = ½ Σ A σⁿ:(εⁿ⁺¹ − ε_pⁿ)
-  // this is −Sⁿ⁺½ + Sⁿ⁻½ − Dⁿ, where Dⁿ = ½ Σ A [σⁿ⁻¹:(εⁿ − ε_pⁿ⁻¹) − σⁿ:(εⁿ⁻¹ − ε_pⁿ)] is nothing for a linear solid,
-  // ½ εⁿ⁻¹:(Cⁿ⁻¹ − Cⁿ):εⁿ where its stiffness changes and ½ (σⁿ⁻¹ + σⁿ):Δε_p where it flows: what the material takes.
-  // Where cracks close, the stiffness rises again; sheared meanwhile, the solid then gives some of Dⁿ back, or more.
-  // The law of eqs. 23 is such: its stress jumps where ε_v = 0. Contractions are in three dimensions: ε_p has a zz
-  // component.
+  // the energy ψ of what can be got back and
+  //   Sⁿ⁺½ = Σ A [ψⁿ + ½ σⁿ:(εⁿ⁺¹ − εⁿ)]
+  // this is −Sⁿ⁺½ + Sⁿ⁻½ − Dⁿ, where Dⁿ = Sⁿ⁻½ − Σ A [ψⁿ − ½ σⁿ:(εⁿ − εⁿ⁻¹)] is nothing for a linear solid. Of it the
+  // material takes what damage takes at the strain at which it grows, ψ(εⁿ; C_dⁿ⁻¹) − ψ(εⁿ; C_dⁿ), and what flows,
+  // σⁿ:Δε_p: neither is ever negative. The rest is what the trapezium of the leapfrog misses of the path between two
+  // steps, where cracks close, crack or flow in between: the scheme's.
   //
-  // A failure wave has an energy U(ε, V_d), and the same sum is made of Sⁿ⁺½ = Σ A [Uⁿ + ½ σⁿ:(εⁿ⁺¹ − εⁿ)] and
-  // Dⁿ = Sⁿ⁻½ − Σ A [Uⁿ − ½ σⁿ:(εⁿ − εⁿ⁻¹)]. It is of either sign: where f is not clipped U is the whole solid's, so
-  // that nothing is lost while V_d grows at rest, but σ is not ∂U/∂ε.
-  void measure_energies() {
+  // A failure wave has an energy, but its stress is not that energy's derivative: all of Dⁿ is the material's, and of
+  // either sign.
+  void measure_energies(Ledger& ledger) {
     for_bands([&](Band& band) {
       for (Index j = band.begin; j < band.end; ++j) {
         RowSums row = kinetic(j);
@@ -934,7 +949,10 @@ class Body {
       }
     });
     sums_[ny_] = kinetic(ny_);
-    if constexpr (dissipative) answered_ = answers_;
+    if constexpr (dissipative) {
+      if (ledger.keeps()) answered_ = answers_;
+    }
+    if constexpr (viscous) ledger.take_by_viscosity(viscous_work());
   }
   /// ½ Σ A q tr Δεⁿ⁺½: with the old q of the kick before this strain increment, with the new one of the kick after it.
   double viscous_work() {
@@ -952,55 +970,58 @@ class Body {
     for (const Drag& row : drag_) sum += row.work;
     return sum;
   }
-  /// Sⁿ⁺½ of a cell.
+  /// Sⁿ⁺½ of a cell [J/m].
   double recoverable(Index i, Index j) {
     const Index cell = j * nx_ + i;
     const Triangles now = strains(at(corners_.u, middles_.u, i, j), h_);
     const Triangles rate = strains(at(corners_.v, middles_.v, i, j), h_);
     double sum = 0;
-    for (Index t = 0; t < 4; ++t) {
-      sum += energy_between(cell, t, now[t] - rate[t] * dt_, now[t]);
+    for (Index t = 0; t < 4; ++t) sum += energy_between(cell, t, now[t] - rate[t] * dt_, now[t]);
+    if constexpr (dissipative) {
+      if (!recoverable_.empty()) recoverable_[cell] = sum;
     }
-    if constexpr (dissipative) recoverable_[cell] = sum;
     return sum;
   }
-  /// ½ A σ:(ε − ε_p) of a triangle, σ where it stands: at the strain `here`. Failed: A [U + ½ σ:(ε − ε here)].
+  /// A [ψ + ½ σ:(ε − ε here)] of a triangle, ψ and σ where it stands, at the strain `here` [J/m].
   double energy_between(Index cell, Index t, const Tensor& here, const Tensor& strain) const {
     Tensor stress = solid_.stress(here);
-    double flown = 0;  // σ:ε_p
     if constexpr (!linear) {
       if (answers_[cell]) stress = stress_[cell][t];
     }
+    return h_.triangle_area() * (stored(cell, t, here) + stress.contract(strain - here) / 2);
+  }
+  /// ψ [J/m³].
+  double stored(Index cell, [[maybe_unused]] Index t, const Tensor& strain) const {
     if constexpr (failing) {
       const double dilatancy = dilatancy_->of_cells()[cell];
-      if (dilatancy != 0) {
-        return h_.triangle_area() * (failure().stored(here, dilatancy) + stress.contract(strain - here) / 2);
-      }
+      if (dilatancy != 0) return failure().stored(strain, dilatancy);
     }
-    if constexpr (plastic) {
-      const PlasticStrain& p = plastic_[cell][t];
-      Stiffness solid = solid_;
-      if constexpr (damaging) {
-        if (answers_[cell] && cracked_[cell].crack_density != 0)
-          solid = here.xx + here.yy >= 0 ? cracked_[cell].stiffness.open : cracked_[cell].stiffness.closed;
-      }
-      const double zz = (solid.normal + 2 * solid.cross) * (here.xx + here.yy) - stress.xx - stress.yy;
-      flown = stress.contract(p) - zz * (p.xx + p.yy);
+    Stiffness solid = solid_;
+    if constexpr (damaging) {
+      if (cracked_[cell].crack_density != 0) solid = cracked_[cell].stiffness.at(strain);
     }
-    return h_.triangle_area() * (stress.contract(strain) - flown) / 2;
+    if constexpr (plastic) return material::Compression::stored(solid, strain, plastic_[cell][t]);
+    return solid.stress(strain).contract(strain) / 2;
   }
 
   void close_books(Ledger& ledger) {
-    if constexpr (dissipative) measure_dissipation();
     RowSums sum;
     for (const RowSums& row : sums_) add(sum, row);
-    ledger.close_line(sum.kinetic, sum.strain, sum.dissipated, along_diagonal(sum.momentum));
-    if constexpr (viscous) ledger.take_by_viscosity(viscous_work());
+    double between = 0;  // Dⁿ⁺¹
+    if constexpr (dissipative) {
+      if (ledger.keeps()) between = dissipation();
+    }
+    const double taken = failing ? between : std::accumulate(taken_.begin(), taken_.end(), 0.0);
+    double viscous_after = 0;
+    if constexpr (viscous) viscous_after = viscous_work();
+    ledger.close_line(sum.kinetic, sum.strain, taken, along_diagonal(sum.momentum), -viscous_after / 2);
+    ledger.take_by_scheme(between - taken);
+    ledger.take_by_viscosity(viscous_after);
   }
-  /// Dⁿ⁺¹.
-  void measure_dissipation() {
+  double dissipation() {
     for_bands([&](Band& band) {
       for (Index j = band.begin; j < band.end; ++j) {
+        sums_[j].dissipated = 0;
         for (Index i = 0; i < nx_; ++i) {
           const Index cell = j * nx_ + i;
           if (!answers_[cell] && !answered_[cell]) continue;
@@ -1012,6 +1033,9 @@ class Body {
         }
       }
     });
+    double sum = 0;
+    for (const RowSums& row : sums_) sum += row.dissipated;
+    return sum;
   }
 
   /// One task for each band; the same bits for any number of them.
@@ -1049,6 +1073,7 @@ class Body {
   std::vector<Drag> drag_;                // per row
   // for the books
   std::vector<RowSums> sums_;        // per row
+  std::vector<double> taken_;        // per row, by damage and flow [J/m]
   std::vector<double> recoverable_;  // per cell, likewise [J/m]
   std::vector<unsigned char> answered_;
   double body_work_rate_ = 0;

@@ -22,6 +22,10 @@ struct FailureWave {
   double threshold = 0;       ///< equivalent stress of the whole solid above which damage may spread [Pa]
   double most_converted = 1;  ///< f_max, 0 to 1
 
+  /// Its stress is not the derivative of its energy: where strain changes after damage the law gives or takes. Largest
+  /// part of the energy put in that a run may see given; the most that was seen is stated with the gates on it.
+  static constexpr double gives_back = 0.25;
+
   double pressure(const Tensor& strain) const { return -elastic.bulk_modulus() * (strain.xx + strain.yy); }  ///< p_e
   /// W, the shear energy of the whole solid [J/m³]; dev ε has a zz component.
   double shear_energy(const Tensor& strain) const {

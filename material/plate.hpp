@@ -129,6 +129,7 @@ inline bool finite(const PlateSnapshot& s) {
 }
 
 struct PlateRecord : BasicRecord<PlateSnapshot> {
+  static constexpr const char* energy_unit = "J/m";  ///< of a plate's thickness
   double fed = 0;  ///< with diffusion: ∫C dA (∫V_d dA) at the start and what the source (the face) has given since
   long diffusion_updates = 0;       ///< nodes that the diffusion has brought up to date, over the run
   std::vector<GaugeRecord> gauges;  ///< one a gauge of the plate, a value after each step

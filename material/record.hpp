@@ -59,12 +59,15 @@ struct LedgerLine {
 struct LedgerSums {
   long lines = 0;
   LedgerLine last;
-  double held = 0;      ///< kinetic + |strain| + dissipated + |viscous| [J]
-  double kinetic = 0;   ///< [J]
-  double taken = 0;     ///< |contact + scheme + lost|: what the continuous bar would have kept [J]
-  double lost = 0;      ///< |lost| [J]
-  double momentum = 0;  ///< |momentum − impulse| [kg m/s]
-  bool finite = true;   ///< every entry was
+  double held = 0;        ///< kinetic + |strain| + dissipated + |viscous| [J]
+  double kinetic = 0;     ///< [J]
+  double taken = 0;       ///< |contact + scheme + lost|: what the continuous bar would have kept [J]
+  double lost = 0;        ///< |lost| [J]
+  double momentum = 0;    ///< |momentum − impulse| [kg m/s]
+  double given_back = 0;  ///< largest fall of `dissipated` below what it was before [J]
+  double excess = 0;      ///< of kinetic + strain, without free flight, over what was put in [J]
+  double put_in = 0;      ///< the most that had been put in at any line: at the start and by work [J]
+  bool finite = true;     ///< every entry was
 };
 
 /// Deterministic cost: the same on every machine.
@@ -87,6 +90,7 @@ enum class Outcome { completed, unstable, left_grid, cancelled };
 
 template <class Snapshot>
 struct BasicRecord {
+  static constexpr const char* energy_unit = "J";  ///< bars of unit cross-section
   Outcome outcome = Outcome::completed;
   std::string message;  ///< why, where the outcome is not completed
   long steps = 0;       ///< taken

@@ -65,13 +65,17 @@ struct Scene {
   double end() const { return bars.back().end(); }
 };
 
-/// How much of the energy and momentum ledger to keep. Off: neither computed nor stored. Sums: its largest entries.
-/// Lines: every step's line as well.
+/// How much of the energy and momentum ledger to keep. Off: nothing, and energies are looked at now and then, to tell
+/// an instability. Sums: its largest entries. Lines: every step's line as well.
 enum class Books { off, sums, lines };
 
 /// The steps of one run. Times are multiples of time_step; the caller has checked it against critical_time_step.
 struct Stepping {
-  double time_step = 0;            ///< Δt [s]
+  double time_step = 0;  ///< Δt [s]
+  double limit = 0;      ///< the largest stable Δt, as far as it is known; 0: it is not [s]
+  /// Largest part of what was put in that the scheme may add to it. None does where particles keep their places; at
+  /// nine tenths of the wave speed the crossing of cells adds 1.7 %.
+  double gains = 0.02;
   long steps = 0;                  ///< number of steps
   std::vector<long> sample_after;  ///< step counts after which fields are sampled, ascending, each ≤ steps
   Books books = Books::sums;

@@ -43,8 +43,8 @@ template <class Result = Record, class Body>
 Result take_steps(Body& body, const Stepping& stepping) {
   Result record;
   Ledger ledger(stepping.books, stepping.time_step, body.first_ledger_time(), body.energy(), body.momentum(),
-                body.free_mass());
-  const bool keep = stepping.books != Books::off;
+                body.free_mass(),
+                {stepping.gains, stepping.limit > 0 ? stepping.time_step / stepping.limit : 0, body.gives_back()});
   auto next = stepping.sample_after.begin();
   for (long n = 0; n < stepping.steps; ++n) {
     if (stepping.cancelled && *stepping.cancelled) {
@@ -52,16 +52,17 @@ Result take_steps(Body& body, const Stepping& stepping) {
       record.message = "stopped on request";
       break;
     }
-    body.step(n, keep ? &ledger : nullptr);
+    ledger.begin_step(n);
+    body.step(n, ledger);
     record.steps = n + 1;
     if (!body.trouble().empty()) {
       record.outcome = Outcome::left_grid;
       record.message = body.trouble();
       break;
     }
-    if (keep && ledger.unstable()) {
+    if (ledger.due() && ledger.unstable()) {
       record.outcome = Outcome::unstable;
-      record.message = "energy grew beyond anything the loads put in, at step " + std::to_string(n + 1);
+      record.message = ledger.trouble(Result::energy_unit) + ", at step " + std::to_string(n + 1);
       break;
     }
     if (next != stepping.sample_after.end() && *next == n + 1) {

@@ -22,6 +22,8 @@ enum class Closure {
 /// A cracked solid where cracks are open (mean strain ≥ 0) and where they are closed.
 struct CrackedStiffness {
   Stiffness open, closed;
+
+  const Stiffness& at(const Tensor& strain) const { return strain.xx + strain.yy >= 0 ? open : closed; }
 };
 
 /// Neither modulus ever rises with C_d, so that damage takes energy and never gives any.

@@ -68,7 +68,7 @@ class Bars {
     if (scheme_ == Scheme::usf) bring_usf_to_its_half_step();
   }
 
-  void step(long n, Ledger* ledger) {
+  void step(long n, Ledger& ledger) {
     if (scheme_ == Scheme::usf) step_usf(n, ledger);
     if (scheme_ == Scheme::usl) step_usl(n, ledger);
     if (scheme_ == Scheme::musl) step_musl(n, ledger);
@@ -76,51 +76,53 @@ class Bars {
   }
 
   // Update stress first: (vⁿ, σⁿ⁻½) → (vⁿ⁺¹, σⁿ⁺½).
-  void step_usf(long n, Ledger* ledger) {
+  void step_usf(long n, Ledger& ledger) {
     const Kick kick = kick_after(n, dt_);
     map_momentum();
+    if (n > 0 && !ledger.keeps()) ledger.after_kick(work_rate(), kick.length);  // the last one's, while the grid has it
     if (n > 0) update_stress(dt_, ledger);  // with the particles' velocities; the half-step from 0 to ½ is behind
     internal_force();                       // eq. 19
-    if (ledger && n > 0) account_for_remapping(ledger);
+    if (n > 0) account_for_remapping(ledger);
     external_force(kick);  // eqs. 16, 17, 20
-    if (ledger) ledger->before_kick(work_rate(), impulse_rate(), kick.length);
-    integrate_momentum(kick.length);  // eq. 18
-    update_velocity(kick.length);     // eq. 11
-    move_particles(dt_);              // eqs. 9, 10
-    if (ledger) end_kick(kick.length, ledger);
+    ledger.before_kick(work_rate(), impulse_rate(), kick.length);
+    integrate_momentum(kick.length);                    // eq. 18
+    update_velocity(kick.length);                       // eq. 11
+    move_particles(dt_);                                // eqs. 9, 10
+    if (ledger.keeps()) end_kick(kick.length, ledger);  // maps them at once
     convect();
   }
 
   // Update stress last: (σⁿ, vⁿ⁻½) → (σⁿ⁺¹, vⁿ⁺½).
-  void step_usl(long n, Ledger* ledger) {
+  void step_usl(long n, Ledger& ledger) {
     const Kick kick = kick_around(n, dt_);
     map_momentum();
-    internal_force();                           // eq. 19
-    if (ledger) account_for_remapping(ledger);  // since the last update
-    external_force(kick);                       // eqs. 16, 17, 20
-    if (ledger) ledger->before_kick(work_rate(), impulse_rate(), kick.length);
+    internal_force();               // eq. 19
+    account_for_remapping(ledger);  // since the last update
+    external_force(kick);           // eqs. 16, 17, 20
+    begin_kick(kick.length, ledger);
     integrate_momentum(kick.length);  // eq. 18
     update_velocity(kick.length);     // eq. 11
     move_particles(dt_);              // eqs. 9, 10
-    if (ledger) ledger->after_kick(work_rate(), kick.length);
-    if (ledger) account_for_lumping(kick.length, ledger);
+    ledger.after_kick(work_rate(), kick.length);
+    account_for_lumping(kick.length, ledger);
     update_stress(dt_, ledger);  // with the grid's own new velocities
+    note_velocities();
     convect();
   }
 
   // Modified update stress last: (σⁿ, vⁿ⁻½) → (σⁿ⁺¹, vⁿ⁺½).
-  void step_musl(long n, Ledger* ledger) {
+  void step_musl(long n, Ledger& ledger) {
     const Kick kick = kick_around(n, dt_);
     map_momentum();
-    internal_force();                           // eq. 19
-    if (ledger) account_for_remapping(ledger);  // since the last update
-    external_force(kick);                       // eqs. 16, 17, 20
-    if (ledger) ledger->before_kick(work_rate(), impulse_rate(), kick.length);
+    internal_force();               // eq. 19
+    account_for_remapping(ledger);  // since the last update
+    external_force(kick);           // eqs. 16, 17, 20
+    ledger.before_kick(work_rate(), impulse_rate(), kick.length);
     integrate_momentum(kick.length);  // eq. 18
     update_velocity(kick.length);     // eq. 11
     move_particles(dt_);              // eqs. 9, 10
     map_momentum();
-    if (ledger) ledger->after_kick(work_rate(), kick.length);
+    ledger.after_kick(work_rate(), kick.length);
     update_stress(dt_, ledger);  // with the particles' new velocities, mapped once more
     convect();
   }
@@ -149,6 +151,7 @@ class Bars {
   }
 
   const std::string& trouble() const { return trouble_; }
+  static double gives_back() { return 0; }
   double first_ledger_time() const { return scheme_ == Scheme::usf ? dt_ : dt_ / 2; }
   double energy() const {
     double sum = kinetic_energy();
@@ -464,9 +467,9 @@ class Bars {
     });
   }
 
-  void update_stress(double strain_time, Ledger* ledger) {
-    if (ledger) {
-      update_stress<true>(strain_time, ledger);
+  void update_stress(double strain_time, Ledger& ledger) {
+    if (ledger.due()) {
+      update_stress<true>(strain_time, &ledger);
     } else {
       update_stress<false>(strain_time, nullptr);
     }
@@ -516,7 +519,7 @@ class Bars {
     if constexpr (with_ledger) {
       ledger->take_by_viscosity(viscous_before);
       if (convected && scheme_ == Scheme::usf) ledger->take_by_scheme(-(half_work_of_kick_ + half_work_before));
-      ledger->close_line(kinetic_energy(), strain_energy, dissipated, momentum());
+      ledger->close_line(kinetic_energy(), strain_energy, dissipated, momentum(), lent_ - viscous_after / 2);
       ledger->take_by_viscosity(viscous_after);
       ledger->take_by_scheme(lost);
       half_work_ = half_work_after;
@@ -601,29 +604,50 @@ class Bars {
   /// What the scheme takes on its way from one map to the next. The stress was updated with one map's velocities, half
   /// of its work on that strain stands in the strain energy, and the other half is done by the internal forces with the
   /// particles' new stretches, places and velocities. The two cancel where nothing moved in between.
-  void account_for_remapping(Ledger* ledger) {
-    if (!convected && scheme_ != Scheme::usl) return;
+  void account_for_remapping(Ledger& ledger) {
+    if (!ledger.keeps() || (!convected && scheme_ != Scheme::usl)) return;
     double power = 0;
     for (const Node& node : node_) power += node.force * node.velocity;
-    ledger->take_by_scheme(-(dt_ * power / 2 + half_work_));
+    ledger.take_by_scheme(-(dt_ * power / 2 + half_work_));
   }
 
-  /// USL's kick does τ²/2 Σ m a² of work on the grid with lumped masses; particles take up less of it.
-  void account_for_lumping(double kick, Ledger* ledger) {
+  /// USL strains with the grid's own velocities w⁺ = P v⁻ + τ a, while its particles take up N a, of which the next map
+  /// leaves P N a. So its loads work on the way from w⁻ to w⁺; what they would have done from P v⁻ on is the scheme's.
+  void begin_kick(double kick, Ledger& ledger) {
+    const double mapped = work_rate();
+    double own = mapped;
+    if (!kicked_.empty()) {
+      own = work_rate([&](std::size_t i) { return kicked_[i]; });
+    }
+    ledger.before_kick(own, impulse_rate(), kick);
+    ledger.take_by_scheme(kick * (own - mapped) / 2);
+  }
+  void note_velocities() {
+    kicked_.resize(node_.size());
+    for (std::size_t i = 0; i < node_.size(); ++i) kicked_[i] = node_[i].velocity;
+  }
+
+  /// USL's kick does τ²/2 Σ m a² of work on the grid with lumped masses; particles take up less of it, D = Σ m a² less
+  /// their part. H of the leapfrog then falls by τ²/2 aⁿ·D(aⁿ + aⁿ⁻¹) in a step, so that H + τ²/4 a·D a never grows:
+  /// of what the scheme takes it gives so much back.
+  void account_for_lumping(double kick, Ledger& ledger) {
+    if (!ledger.due()) return;
     double grid = 0, particles = 0;
     for (const Node& node : node_) grid += node.mass * node.acceleration * node.acceleration;
     for_each_particle([&](std::size_t p, const Node& left, const Node& right) {
       const double a = (0.5 - offset_[p]) * left.acceleration + (0.5 + offset_[p]) * right.acceleration;
       particles += mass(p) * a * a;
     });
-    ledger->take_by_scheme(kick * kick / 2 * (grid - particles));
+    const double taken = kick * kick / 2 * (grid - particles);
+    ledger.take_by_scheme(taken);
+    lent_ = taken / 2;
   }
 
   /// USF: the work of the kick's second half, at the places where its forces were found.
-  void end_kick(double kick, Ledger* ledger) {
+  void end_kick(double kick, Ledger& ledger) {
     map_momentum();
     const double external = work_rate();
-    ledger->after_kick(external, kick);
+    ledger.after_kick(external, kick);
     double power = -external;
     for (const Node& node : node_) power += node.force * node.velocity;
     half_work_of_kick_ = kick * power / 2;
@@ -636,9 +660,13 @@ class Bars {
   }
 
   double work_rate() const {
+    return work_rate([&](std::size_t i) { return node_[i].velocity; });
+  }
+  template <class Velocity>
+  double work_rate(Velocity&& velocity) const {
     double sum = 0;
-    for (const NodalForce& f : nodal_forces_) sum += f.force * node_[f.node].velocity;
-    for (std::size_t i = 0; i < body_.size(); ++i) sum += body_[i] * node_[i].velocity;
+    for (const NodalForce& f : nodal_forces_) sum += f.force * velocity(f.node);
+    for (std::size_t i = 0; i < body_.size(); ++i) sum += body_[i] * velocity(i);
     return sum;
   }
 
@@ -671,9 +699,10 @@ class Bars {
   std::vector<double> q_;                  // only with viscosity
   std::vector<double> body_;               // per node, only with a body force
   std::vector<NodalForce> nodal_forces_;   // of the current step
+  std::vector<double> kicked_;             // velocities of the nodes after the last kick, only with USL
   std::vector<std::vector<LayerPoint>> layers_;
   std::vector<Touch> touches_;
-  double half_work_ = 0, half_work_of_kick_ = 0;  // for the books
+  double half_work_ = 0, half_work_of_kick_ = 0, lent_ = 0;  // for the books
   std::string trouble_;
 };
 

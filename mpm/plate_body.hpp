@@ -83,7 +83,7 @@ class Body {
     }
     if (plate.viscosity) damping_.emplace(*plate.viscosity, plate, grid_, particles_.storage());
     place_gauges(stepping.steps);
-    if (stepping.books != Books::off) row_sums_.resize(grid_.ny);
+    row_sums_.resize(grid_.ny);
     if (supports_.has_platen()) platen_.reserve(static_cast<std::size_t>(stepping.steps));
     nodal_forces_.reserve(8 * (grid_.nx + grid_.ny));
     if (plate.body_force) body_.resize(grid_.storage());
@@ -98,7 +98,7 @@ class Body {
     if (scheme_ != Scheme::usf) internal_force();
   }
 
-  void step(long n, Ledger* ledger) {
+  void step(long n, Ledger& ledger) {
     if (scheme_ == Scheme::usf) step_usf(n, ledger);
     if (scheme_ == Scheme::usl) step_usl(n, ledger);
     if (scheme_ == Scheme::musl) step_musl(n, ledger);
@@ -111,45 +111,46 @@ class Body {
   // along with the strain that it follows from.
 
   // Update stress first: (vⁿ, σⁿ⁻½) → (vⁿ⁺¹, σⁿ⁺½).
-  void step_usf(long n, Ledger* ledger) {
+  void step_usf(long n, Ledger& ledger) {
     const Kick kick = kick_after(n, dt_);
     if (n > 0) {                              // the half-step from 0 to ½ is behind
       update_strain(grid_.velocity, ledger);  // with the particles' velocities; eq. 19
-      if (ledger) account_for_remapping(ledger);
+      account_for_remapping(ledger);
     } else {
       internal_force();  // eq. 19
     }
     external_force(kick);      // eqs. 17a, 20
     integrate_momentum(kick);  // eq. 18
-    if (ledger) begin_kick(kick, ledger);
+    begin_kick(kick, ledger);
     kick_and_move(kick.length, dt_);  // eqs. 11, 9, 10, and the new momentum mapped
-    if (ledger) end_kick(kick, ledger);
+    end_kick(kick, ledger);
     convect();
   }
 
   // Update stress last: (σⁿ, vⁿ⁻½) → (σⁿ⁺¹, vⁿ⁺½).
-  void step_usl(long n, Ledger* ledger) {
+  void step_usl(long n, Ledger& ledger) {
     const Kick kick = kick_around(n, dt_);
-    if (ledger) account_for_remapping(ledger);  // since the last update
-    external_force(kick);                       // eqs. 17a, 20
-    integrate_momentum(kick);                   // eq. 18
-    if (ledger) begin_kick(kick, ledger);
+    account_for_remapping(ledger);  // since the last update
+    external_force(kick);           // eqs. 17a, 20
+    integrate_momentum(kick);       // eq. 18
+    begin_kick(kick, ledger);
+    kick_grid(kick.length);           // likewise: the grid's own new velocities
     kick_and_move(kick.length, dt_);  // eqs. 11, 9, 10
-    if (ledger) end_kick(kick, ledger);
-    if (ledger) account_for_lumping(kick.length, ledger);
+    end_kick(kick, ledger);
+    account_for_lumping(kick.length, ledger);
     update_strain(grid_.kicked, ledger);  // with the grid's own new velocities; eq. 19
     convect();
   }
 
   // Modified update stress last: (σⁿ, vⁿ⁻½) → (σⁿ⁺¹, vⁿ⁺½).
-  void step_musl(long n, Ledger* ledger) {
+  void step_musl(long n, Ledger& ledger) {
     const Kick kick = kick_around(n, dt_);
-    if (ledger) account_for_remapping(ledger);  // since the last update
-    external_force(kick);                       // eqs. 17a, 20
-    integrate_momentum(kick);                   // eq. 18
-    if (ledger) begin_kick(kick, ledger);
+    account_for_remapping(ledger);  // since the last update
+    external_force(kick);           // eqs. 17a, 20
+    integrate_momentum(kick);       // eq. 18
+    begin_kick(kick, ledger);
     kick_and_move(kick.length, dt_);  // eqs. 11, 9, 10, and the new momentum mapped once more
-    if (ledger) end_kick(kick, ledger);
+    end_kick(kick, ledger);
     update_strain(grid_.velocity, ledger);  // with the particles' new velocities; eq. 19
     convect();
   }
@@ -210,9 +211,9 @@ class Body {
   }
 
   std::string trouble() const { return particles_.trouble(); }
+  static double gives_back() { return failing ? material::FailureWave::gives_back : 0; }
   double first_ledger_time() const { return scheme_ == Scheme::usf ? dt_ : dt_ / 2; }
   double energy() {
-    if (row_sums_.empty()) return 0;
     return kinetic_energy() + sum([&](const Place& at) {
                                 return law_.stored(particles_.state().strain[at.particle], at.cell, at.particle);
                               }) * particles_.state().volume;
@@ -366,6 +367,7 @@ class Body {
       if (!(std::abs(left_over_ + dt_ * opened(state.velocity.x)) < std::abs(left_over_))) break;
       internal_force();
       integrate_momentum(kick);
+      if (scheme_ == Scheme::usl) kick_grid(kick.length);
       kick_and_move(kick.length, dt_);
       left_over_ = plate_.impact->gap + opened(state.displacement.x);
       ++flight_steps_;
@@ -423,14 +425,15 @@ class Body {
     particles_.template strain_and_force<what>(bands_, velocity, dt, law_, none);
   }
 
-  /// Strains, what follows from them in the cells, and the internal forces of both.
-  void strain(const VectorField& velocity, double dt) {
+  /// Strains, what follows from them in the cells, and the internal forces of both. books: also adds up what damage
+  /// takes.
+  void strain(const VectorField& velocity, double dt, bool books = false) {
     if constexpr (!staggered) {
       if (!damping_) return strain_and_force<Do::both>(velocity, dt);
     }
     if constexpr (!convected) {
       strain_and_force<Do::strain>(velocity, dt);
-      if constexpr (damaging) crack(dt);
+      if constexpr (damaging) crack(dt, books);
       if constexpr (failing) dilate(dt);
       internal_force();
     }
@@ -492,15 +495,14 @@ class Body {
   }
 
   /// What the supports leave of the accelerations; the velocities follow row by row, while the particles are kicked.
-  void integrate_momentum(const Kick& kick) {
-    reaction_ = supports_.hold_acceleration(kick.to, kick.length);
-    if (scheme_ != Scheme::usl) return;
+  void integrate_momentum(const Kick& kick) { reaction_ = supports_.hold_acceleration(kick.to, kick.length); }
+  void kick_grid(double kick) {
     bands_.for_each([&](Band& band) {
       const std::size_t from = grid_.row(band.first);
       const std::size_t to = band.last == grid_.ny ? grid_.storage() : grid_.row(band.last);
       for (std::size_t i = from; i < to; ++i) {
-        grid_.kicked.x[i] = grid_.velocity.x[i] + kick.length * grid_.acceleration.x[i];
-        grid_.kicked.y[i] = grid_.velocity.y[i] + kick.length * grid_.acceleration.y[i];
+        grid_.kicked.x[i] = grid_.velocity.x[i] + kick * grid_.acceleration.x[i];
+        grid_.kicked.y[i] = grid_.velocity.y[i] + kick * grid_.acceleration.y[i];
       }
     });
   }
@@ -513,30 +515,41 @@ class Body {
   }
 
   /// Strains to their new time level, crack densities with them, and the internal forces of both.
-  void update_strain(const VectorField& velocity, Ledger* ledger) {
-    double stored_and_half = 0;
-    if (ledger) {
-      const double half_work = work_of_stress(velocity) / 2;
-      stored_and_half = stored_energy() + half_work;
-      if (convected && scheme_ == Scheme::usf) ledger->take_by_scheme(-(half_work_of_kick_ + half_work));
-      if (damping_) ledger->take_by_viscosity(work_of_viscosity(velocity) / 2);
+  void update_strain(const VectorField& velocity, Ledger& ledger) {
+    if (!ledger.due()) {
+      strain(velocity, dt_);
+      return;
     }
-    strain(velocity, dt_);
-    if (ledger) {
-      half_work_ = work_of_stress(velocity) / 2;
-      // By the trapezium of the leapfrog; nothing where the law is linear.
-      const double dissipated = staggered || PlateLaw::plastic ? stored_and_half + half_work_ - stored_energy() : 0;
-      ledger->close_line(kinetic_energy(), stored_and_half, dissipated, momentum());
-      if (damping_) {
-        const double viscous = work_of_viscosity(velocity) / 2;
-        ledger->take_by_viscosity(viscous);
-        half_work_ += viscous;
-      }
+    const double half_work = work_of_stress(velocity) / 2, stored_and_half = stored_energy() + half_work;
+    if (ledger.keeps()) {
+      if (convected && scheme_ == Scheme::usf) ledger.take_by_scheme(-(half_work_of_kick_ + half_work));
+      if (damping_) ledger.take_by_viscosity(work_of_viscosity(velocity) / 2);
     }
+    if constexpr (PlateLaw::plastic) law_.note_flow(ledger.keeps());
+    strain(velocity, dt_, ledger.keeps());
+    if (!ledger.keeps()) {
+      ledger.close_line(kinetic_energy(), stored_and_half, 0, momentum(),
+                        lent_ - (damping_ ? work_of_viscosity(velocity) / 4 : 0));
+      return;
+    }
+    half_work_ = work_of_stress(velocity) / 2;
+    // What the trapezium of the leapfrog finds gone; nothing where the law is linear. Of it the material takes what
+    // damage takes at the strain at which it grows and what flows, and the scheme the rest: see fem/plate.cpp. All of a
+    // failure wave is the material's.
+    double between = 0, taken = 0;
+    if constexpr (staggered || PlateLaw::plastic) between = stored_and_half + half_work_ - stored_energy();
+    if constexpr (failing) taken = between;
+    if constexpr (damaging) taken += taken_by_damage_;
+    if constexpr (PlateLaw::plastic) taken += work_of_flow();
+    const double viscous = damping_ ? work_of_viscosity(velocity) / 2 : 0;
+    ledger.close_line(kinetic_energy(), stored_and_half, taken, momentum(), lent_ - viscous / 2);
+    ledger.take_by_scheme(between - taken);
+    ledger.take_by_viscosity(viscous);
+    half_work_ += viscous;
   }
 
   /// Each cell's mean strain gives it its crack density at the strains' own time.
-  void crack(double dt) {
+  void crack(double dt, bool books) {
     bands_.for_each([&](Band& band) {
       for (std::size_t j = band.first; j < band.last; ++j) {
         for (std::size_t i = 0; i < nx_; ++i)
@@ -544,7 +557,9 @@ class Body {
       }
     });
     evolution_->advance(volumetric_strain_, dt);
+    if (books) taken_by_damage_ = stored_energy();
     law_.crack(evolution_->crack_density());
+    if (books) taken_by_damage_ -= stored_energy();
   }
 
   /// Each cell's mean strain shows the diffusion its ceiling, and its dilatancy at the strains' own time comes back.
@@ -632,21 +647,27 @@ class Body {
 
   // --- books ---------------------------------------------------------------------------------------------------------
 
-  void begin_kick(const Kick& kick, Ledger* ledger) {
+  void begin_kick(const Kick& kick, Ledger& ledger) {
     // A part of PIC pulls the particles towards the grid's velocity, by the supports as well.
     const double impulse = (external_impulse_rate() + reaction_ + plate_.pic * held_ / kick.length) / std::sqrt(2);
-    ledger->before_kick(work_rate(grid_.velocity), impulse, kick.length);
+    // USL's loads work on the way from one of the grid's own velocities to the next: see mpm/bars.hpp.
+    const bool own = scheme_ == Scheme::usl && kick.from > 0;
+    const double before = work_rate(own ? grid_.kicked : grid_.velocity);
+    ledger.before_kick(before, impulse, kick.length);
+    if (!ledger.keeps()) return;
+    if (own) ledger.take_by_scheme(kick.length * (before - work_rate(grid_.velocity)) / 2);
     if (plate_.pic > 0) account_for_pic(kick.length, ledger);
     driven_excess_ = excess_of_driven();
   }
 
-  void end_kick(const Kick& kick, Ledger* ledger) {
+  void end_kick(const Kick& kick, Ledger& ledger) {
     const VectorField& after = scheme_ == Scheme::usl ? grid_.kicked : grid_.velocity;
     const double external = work_rate(after);
-    ledger->after_kick(external, kick.length);
+    ledger.after_kick(external, kick.length);
+    if (!ledger.keeps()) return;
     // Work on the velocity that the particles have at a driven node beyond the one that the node is given.
     const double excess = scheme_ == Scheme::usl ? driven_excess_ : (driven_excess_ + excess_of_driven()) / 2;
-    ledger->take_by_scheme(-kick.length * excess);
+    ledger.take_by_scheme(-kick.length * excess);
     // USF: the internal work of the kick's second half, at the places where its forces were found.
     if (convected && scheme_ == Scheme::usf) half_work_of_kick_ = kick.length * (power(grid_.velocity) - external) / 2;
   }
@@ -654,13 +675,14 @@ class Body {
   /// What the scheme takes on its way from one map to the next. The strain was updated with one map's velocities, half
   /// of the stress's work on it stands in the strain energy, and the other half is done by the internal forces with the
   /// particles' new places and velocities. The two cancel where nothing moved in between.
-  void account_for_remapping(Ledger* ledger) {
-    if (!convected && scheme_ != Scheme::usl) return;
-    ledger->take_by_scheme(-(dt_ * power(grid_.velocity) / 2 + half_work_));
+  void account_for_remapping(Ledger& ledger) {
+    if (!ledger.keeps() || (!convected && scheme_ != Scheme::usl)) return;
+    ledger.take_by_scheme(-(dt_ * power(grid_.velocity) / 2 + half_work_));
   }
 
   /// USL's kick does τ²/2 Σ m a² of work on the grid with lumped masses; particles take up less of it.
-  void account_for_lumping(double kick, Ledger* ledger) {
+  void account_for_lumping(double kick, Ledger& ledger) {
+    if (!ledger.due()) return;
     double grid = 0;
     for_nodes([&](std::size_t node, double m) {
       const double ax = grid_.acceleration.x[node], ay = grid_.acceleration.y[node];
@@ -670,11 +692,12 @@ class Body {
                                const Vector a = at.value(grid_.acceleration);
                                return a[0] * a[0] + a[1] * a[1];
                              });
-    ledger->take_by_scheme(kick * kick / 2 * (grid - particles));
+    ledger.take_by_scheme(kick * kick / 2 * (grid - particles));
+    lent_ = kick * kick / 4 * (grid - particles);
   }
 
   /// A part of PIC adds d = part · (Σ N v − v_p) to a particle's velocity.
-  void account_for_pic(double kick, Ledger* ledger) {
+  void account_for_pic(double kick, Ledger& ledger) {
     const double share = scheme_ == Scheme::usl ? 1 : 0.5;  // of the kick in the velocity that d works on
     const double given = particles_.state().mass * sum([&](const Place& at) {
                            const Vector a = at.value(grid_.acceleration), v = at.value(grid_.velocity);
@@ -685,7 +708,7 @@ class Body {
                            return component(particles_.state().velocity.x[at.particle], v[0], a[0]) +
                                   component(particles_.state().velocity.y[at.particle], v[1], a[1]);
                          });
-    ledger->take_by_scheme(-given);
+    ledger.take_by_scheme(-given);
   }
 
   /// Σ f of particles, row by row: the same bits for any number of threads.
@@ -720,6 +743,12 @@ class Body {
     const State& state = particles_.state();
     return state.volume *
            sum([&](const Place& at) { return law_.stored(state.strain[at.particle], at.cell, at.particle); });
+  }
+  /// σ:Δε_p of the last update.
+  double work_of_flow() {
+    return particles_.state().volume * sum([&](const Place& at) {
+             return law_.work_of_flow(particles_.state().strain[at.particle], at.cell, at.particle);
+           });
   }
   /// Of the stress at hand on the strain increment of these velocities.
   double work_of_stress(const VectorField& velocity) {
@@ -796,7 +825,8 @@ class Body {
   long flight_steps_ = 0;
   // For the books:
   std::vector<double> row_sums_;
-  double half_work_ = 0, half_work_of_kick_ = 0, reaction_ = 0, held_ = 0, driven_excess_ = 0;
+  double half_work_ = 0, half_work_of_kick_ = 0, reaction_ = 0, held_ = 0, driven_excess_ = 0, taken_by_damage_ = 0,
+         lent_ = 0;
 };
 
 /// Runs a plate that has been checked.

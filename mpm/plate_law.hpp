@@ -157,6 +157,21 @@ class Law {
     return now.stress(strain).contract(strain) / 2;
   }
 
+  /// Keeps the plastic strains, or not, for work_of_flow after the next update.
+  void note_flow(bool keep) {
+    if (keep) plastic_before_ = plastic_strain_;
+  }
+  /// σ:Δε_p since then [J/m³], ≥ 0.
+  double work_of_flow(const material::Tensor& strain, std::size_t cell, std::size_t p) const {
+    const material::PlasticStrain more = plastic_strain_[p] - plastic_before_[p];
+    if (more.xx == 0 && more.yy == 0 && more.xy == 0) return 0;
+    const material::Tensor s = stress(strain, cell, p);
+    const material::Stiffness now = stiffness(strain, cell);
+    const double pressure = -(now.cross + 2 * now.shear / 3) * (strain.xx + strain.yy);  // flow leaves it alone
+    const double zz = -(s.xx + s.yy + 2 * pressure);                                     // of the deviator
+    return s.contract(more) - zz * (more.xx + more.yy) + pressure * (more.xx + more.yy);
+  }
+
   /// New crack densities of the cells. A cell whose own did not change keeps its stiffness.
   void crack(std::span<const double> density) {
     for (std::size_t cell = 0; cell < density.size(); ++cell) {
@@ -175,7 +190,8 @@ class Law {
   double ceiling(const material::Tensor& mean) const { return failure_.open_ceiling(mean); }
 
   std::size_t bytes() const {
-    return plastic_strain_.bytes() + crack_density_.capacity() * sizeof(double) + open_.bytes() + closed_.bytes();
+    return plastic_strain_.bytes() + plastic_before_.bytes() + crack_density_.capacity() * sizeof(double) +
+           open_.bytes() + closed_.bytes();
   }
 
  private:
@@ -186,7 +202,7 @@ class Law {
   material::Compression compression_;
   std::vector<double> crack_density_;  // of each cell
   StiffnessField open_, closed_;
-  TensorField plastic_strain_;
+  TensorField plastic_strain_, plastic_before_;  // the latter with books alone
 };
 
 /// No artificial viscosity.

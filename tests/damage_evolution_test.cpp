@@ -55,8 +55,19 @@ BOOST_AUTO_TEST_CASE(paper_constants_give_the_coefficient) {
   BOOST_TEST(material.crack_coefficient() == 1e21, tt::tolerance(1e-14));
 }
 
-BOOST_AUTO_TEST_CASE(diffusivity_falls_to_nothing_at_rupture) {
-  const Diffusion d;
+BOOST_AUTO_TEST_CASE(diffusivity_falls_to_its_floor_at_rupture) {
+  Diffusion d;
+  BOOST_TEST(diffusivity(d, 0.0025) == 375.0, tt::tolerance(1e-15));
+  BOOST_TEST(diffusivity(d, 0.0081) == 100.0);  // 0.2 of 500, where eq. 25 gives 95
+  BOOST_TEST(diffusivity(d, 0.02) == 100.0);
+  BOOST_TEST(std::isnan(diffusivity(d, std::nan(""))));
+  d.floor = 1;
+  for (const double strain : {-0.003, 0.0, 0.0025, 0.02}) BOOST_TEST(diffusivity(d, strain) == 500.0);
+}
+
+BOOST_AUTO_TEST_CASE(diffusivity_as_printed_falls_to_nothing_at_rupture) {
+  Diffusion d;
+  d.floor = 0;
   BOOST_TEST(diffusivity(d, 0) == 500.0);
   BOOST_TEST(diffusivity(d, 0.0025) == 375.0, tt::tolerance(1e-15));
   BOOST_TEST(diffusivity(d, 0.01) == 0.0);
@@ -344,6 +355,38 @@ BOOST_AUTO_TEST_CASE(staggered_step_by_hand) {
       BOOST_TEST(e.total() == e.fed(), tt::tolerance(1e-13));
     }
   }
+}
+
+// Where C flows away the density that stiffness sees stays what it was, or falls with C on request; C is the same.
+BOOST_AUTO_TEST_CASE(damage_heals_on_request_alone) {
+  const Grid g{4, 4, 0.1, 0.1};
+  Evolution evolution = paper();
+  evolution.diffusion->source = Source::node;
+  DamageEvolution keeps(evolution, g);
+  evolution.heals = true;
+  DamageEvolution heals(evolution, g);
+  std::vector<double> strain = uniform(g, 0.003);
+  keeps.advance(strain, 1e-5);
+  heals.advance(strain, 1e-5);
+  const double first = one(keeps);
+  BOOST_TEST(first > 0);
+  BOOST_TEST(one(heals) == first);
+  for (double& e : strain) e = 0;  // nothing is fed any more, and C spreads as fast as it can
+  for (int n = 0; n < 3; ++n) {
+    keeps.advance(strain, 1e-5);
+    heals.advance(strain, 1e-5);
+  }
+  BOOST_TEST(one(keeps) >= first);
+  const double largest = one(keeps);
+  for (int n = 0; n < 30; ++n) {
+    keeps.advance(strain, 1e-5);
+    heals.advance(strain, 1e-5);
+    BOOST_TEST(one(keeps) == largest);
+  }
+  BOOST_TEST(one(heals) < first);
+  const std::vector<double> a(keeps.concentration().begin(), keeps.concentration().end()),
+      b(heals.concentration().begin(), heals.concentration().end());
+  BOOST_TEST(a == b, tt::per_element());
 }
 
 // Uniform d and Q within r₀ in the plane: C(0, t) = Q [t (1 − e^{−a/t}) + a E₁(a/t)] with a = r₀²/4d.

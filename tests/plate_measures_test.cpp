@@ -664,7 +664,8 @@ BOOST_AUTO_TEST_CASE(a_tiny_run_of_damage_by_both_methods) {
     BOOST_TEST(judged.checks.size() == 4u);
   }
   Running keep;
-  keep.keep_ledger = keep.keep_fields = true;
+  keep.books = Books::lines;
+  keep.keep_fields = true;
   Case once = c;
   once.gates.clear();
   const auto kept = run_leaf(once, leaves(c)[0], keep);

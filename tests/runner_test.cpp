@@ -104,7 +104,7 @@ BOOST_AUTO_TEST_CASE(the_ledger_is_kept_where_it_is_asked_for) {
   const Leaf leaf = leaves(c).at(0);
   BOOST_TEST(run_leaf(c, leaf).ledger.empty());
   Running running;
-  running.keep_ledger = true;
+  running.books = Books::lines;
   const auto run = run_leaf(c, leaf, running);
   BOOST_TEST(run.ledger.size() == static_cast<std::size_t>(run.steps));
 }
