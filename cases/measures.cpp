@@ -9,17 +9,6 @@
 
 namespace diptych::cases {
 
-Stepping plan_steps(double end, const TimeStep& step, const std::vector<double>& times, Books books) {
-  const double asked = step.asked;
-  Stepping stepping;
-  stepping.limit = step.limit;
-  stepping.steps = std::max(1L, static_cast<long>(std::ceil(end / asked * (1 - round_off))));
-  stepping.time_step = end / static_cast<double>(stepping.steps);
-  for (const double time : times) stepping.sample_after.push_back(std::max(1L, std::lround(time / stepping.time_step)));
-  stepping.books = books;
-  return stepping;
-}
-
 mpm::Scheme scheme_of(const std::string& method) {
   return method == "mpm-usf" ? mpm::Scheme::usf : method == "mpm-usl" ? mpm::Scheme::usl : mpm::Scheme::musl;
 }

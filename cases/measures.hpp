@@ -14,21 +14,6 @@
 
 namespace diptych::cases {
 
-/// A run's number of steps is rounded up, never to nearest: at the limit one step fewer is unstable. The slack lets a
-/// Courant number that fits the time exactly but for round-off take the steps it asks for.
-constexpr double round_off = 1e-12;
-
-/// The time step that a leaf asks for and the largest stable one. Courant number 1 is Δt = h/c of the fastest bar; of a
-/// plate h/c_d, h the smaller side of a cell; of diffusion alone h²/d with the largest diffusivity.
-struct TimeStep {
-  double asked, limit;  ///< [s]
-  double unit;          ///< Δt of Courant number 1 [s]
-};
-
-/// Steps of equal length, none longer than the one asked for, that meet the end; sampled at the steps nearest to the
-/// times [s].
-Stepping plan_steps(double end, const TimeStep&, const std::vector<double>& times, Books);
-
 /// What a run keeps of its books: at least so much, and their sums where a gate asks for something of them.
 Books books_of(const Case&, const Leaf&, Books least);
 

@@ -520,6 +520,8 @@ PlateProbe read_plate_probe(Table& t, const Case& c) {
   Names reads{"concentration", "total"};
   if (c.plate->material) {
     reads = {"displacement-x", "displacement-y", "velocity-x", "velocity-y", "stress-xx", "stress-yy", "stress-xy"};
+    const auto& supports = c.plate->supports;
+    if (std::find(supports.begin(), supports.end(), Edge::Support::platen) != supports.end()) reads.push_back("platen");
     if (c.plate->evolution)
       reads.insert(reads.end(), {"radius", "area", "largest", "acoustic-ratio", "acoustic-angle"});
     if ((c.plate->evolution && c.plate->evolution->diffusion) || c.plate->spread)

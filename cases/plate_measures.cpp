@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "cases/contours.hpp"
+#include "cases/instants.hpp"
 #include "cases/plate_build.hpp"
 #include "material/bifurcation.hpp"
 
@@ -151,8 +152,13 @@ reports::PlateFields damage_fields(const Case& c, const Leaf& leaf, const PlateS
 }
 
 reports::ProbeValue read_plate_probe(const Case& c, const Leaf& leaf, const PlateProbe& probe,
-                                     const PlateSnapshot& snapshot, const std::optional<reports::PlateFields>& damage) {
+                                     const PlateSnapshot& snapshot, const std::optional<reports::PlateFields>& damage,
+                                     const reports::Curve& platen) {
   reports::ProbeValue value{probe.id, std::nan(""), {}};
+  if (probe.reads == "platen") {
+    value.value = at_instant(platen.x, platen.y, snapshot.time);
+    return value;
+  }
   if (probe.reads == "total" || probe.reads == "concentration") {
     const diffusion::Grid grid = grid_of(*c.plate, leaf.cells);
     const PointField nodes = nodes_as_points(grid, snapshot.concentration, snapshot.time);

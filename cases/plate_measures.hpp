@@ -24,7 +24,7 @@ PointField nodes_as_points(const diffusion::Grid&, const std::vector<double>& va
 
 reports::PlateFields damage_fields(const Case&, const Leaf&, const PlateSnapshot&);
 reports::ProbeValue read_plate_probe(const Case&, const Leaf&, const PlateProbe&, const PlateSnapshot&,
-                                     const std::optional<reports::PlateFields>&);
+                                     const std::optional<reports::PlateFields>&, const reports::Curve& platen);
 std::vector<reports::VtuPiece> vtu_fields(const Case&, const Leaf&, const PlateSnapshot&);
 
 /// "numbers.largest": the largest magnitude of all sampled numbers. "area.error": what the points stand for less the

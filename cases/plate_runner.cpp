@@ -30,6 +30,14 @@ using analytic::PlaneQuantity;
 
 bool mechanical(const Case& c) { return c.plate->material.has_value(); }
 
+PlateSnapshot of_nodes(std::span<const double> values, long step, double time_step) {
+  PlateSnapshot snapshot;
+  snapshot.step = step;
+  snapshot.time = static_cast<double>(step) * time_step;
+  snapshot.concentration.assign(values.begin(), values.end());
+  return snapshot;
+}
+
 /// Diffusion alone, on the nodes of the cells.
 PlateRecord run_diffusion(const Case& c, const Leaf& leaf, const Stepping& stepping) {
   const PureDiffusion& spec = *c.plate->diffusion;
@@ -53,7 +61,16 @@ PlateRecord run_diffusion(const Case& c, const Leaf& leaf, const Stepping& stepp
   const bool fed_by_something = scene.rate || spec.corner_rate != 0;
   double fed = 0;
   auto next = stepping.sample_after.begin();
-  for (long n = 0; n < stepping.steps; ++n) {
+  const auto sample_after = [&](long steps) {
+    if (next == stepping.sample_after.end() || *next != steps) return;
+    ++next;
+    record.snapshots.push_back(of_nodes(field.values(), steps, stepping.time_step));
+    if (finite(record.snapshots.back())) return;
+    record.outcome = Outcome::unstable;
+    record.message = "a sampled value is not finite, at step " + std::to_string(steps);
+  };
+  sample_after(0);
+  for (long n = 0; n < stepping.steps && record.outcome == Outcome::completed; ++n) {
     if (stepping.cancelled && *stepping.cancelled) {
       record.outcome = Outcome::cancelled;
       break;
@@ -64,19 +81,7 @@ PlateRecord run_diffusion(const Case& c, const Leaf& leaf, const Stepping& stepp
     for (std::size_t k = 0; fed_by_something && k < source.size(); ++k) fed += source[k] * area[k] * stepping.time_step;
     field.step(diffusivity, source, stepping.time_step);
     record.steps = n + 1;
-    if (next != stepping.sample_after.end() && *next == n + 1) {
-      PlateSnapshot snapshot;
-      snapshot.step = n + 1;
-      snapshot.time = static_cast<double>(n + 1) * stepping.time_step;
-      snapshot.concentration.assign(field.values().begin(), field.values().end());
-      record.snapshots.push_back(std::move(snapshot));
-      ++next;
-      if (!finite(record.snapshots.back())) {
-        record.outcome = Outcome::unstable;
-        record.message = "a sampled value is not finite, at step " + std::to_string(n + 1);
-        break;
-      }
-    }
+    sample_after(n + 1);
   }
   record.time = static_cast<double>(record.steps) * stepping.time_step;
   record.fed = fed + start;
@@ -95,6 +100,12 @@ PlateRecord run_dilatancy(const Case& c, const Leaf& leaf, const Stepping& stepp
   const std::vector<double> ceiling(grid.cells(), 1);
   PlateRecord record;
   auto next = stepping.sample_after.begin();
+  const auto sample_after = [&](long steps) {
+    if (next == stepping.sample_after.end() || *next != steps) return;
+    ++next;
+    record.snapshots.push_back(of_nodes(field.of_nodes(), steps, stepping.time_step));
+  };
+  sample_after(0);
   for (long n = 0; n < stepping.steps; ++n) {
     if (stepping.cancelled && *stepping.cancelled) {
       record.outcome = Outcome::cancelled;
@@ -102,13 +113,7 @@ PlateRecord run_dilatancy(const Case& c, const Leaf& leaf, const Stepping& stepp
     }
     field.advance(ceiling, stepping.time_step);
     record.steps = n + 1;
-    if (next == stepping.sample_after.end() || *next != n + 1) continue;
-    PlateSnapshot snapshot;
-    snapshot.step = n + 1;
-    snapshot.time = static_cast<double>(n + 1) * stepping.time_step;
-    snapshot.concentration.assign(field.of_nodes().begin(), field.of_nodes().end());
-    record.snapshots.push_back(std::move(snapshot));
-    ++next;
+    sample_after(n + 1);
   }
   record.time = static_cast<double>(record.steps) * stepping.time_step;
   record.fed = field.fed();
@@ -125,18 +130,21 @@ PlateRecord solve(const Case& c, const Plate& plate, const Leaf& leaf, const Ste
   return mpm::run(plate, cells, leaf.particles, scheme_of(leaf.method), c.plate->evolution, stepping, spread);
 }
 
-reports::Sample measure_sample(const Case& c, const Leaf& leaf, const PlateSnapshot& snapshot, double asked,
-                               const analytic::PlaneSolution* exact, const Running& running, double time_step) {
+/// own: errors are those of each field at its own time, next to the instant; at: what is read and drawn is the
+/// instant's.
+reports::Sample measure_sample(const Case& c, const Leaf& leaf, const PlateSnapshot& own, const PlateSnapshot& at,
+                               double asked, const analytic::PlaneSolution* exact, const Running& running,
+                               const reports::Run& run) {
   reports::Sample sample;
   sample.asked = asked;
-  sample.time = snapshot.time;
+  sample.time = own.time;
   const auto compare = [&](PlaneQuantity q, const char* name, const PointField& field) {
     if (!exact || !exact->gives(q) || field.x.empty()) return;
     const double scale = exact->scale(q);
     const Norms norms = plane_error(field, *exact, q, c.plate->exact.core);
     reports::FieldError error{name, field.time, scale, norms.l1, norms.l2, norms.linf, {}, {}, {}};
     if (mechanical(c) && q != PlaneQuantity::concentration) {
-      const auto theory = plane_discretisation(*c.plate, leaf, time_step);
+      const auto theory = plane_discretisation(*c.plate, leaf, run.time_step);
       const auto predicted = [&](int norm) {
         auto value = analytic::predicted_error(*exact, theory, q, norm, field.time);
         if (value) *value /= scale;
@@ -148,16 +156,16 @@ reports::Sample measure_sample(const Case& c, const Leaf& leaf, const PlateSnaps
     }
     sample.errors.push_back(error);
   };
-  compare(PlaneQuantity::stress, "stress", snapshot.stress);
-  compare(PlaneQuantity::velocity, "velocity", snapshot.velocity);
-  compare(PlaneQuantity::displacement, "displacement", snapshot.displacement);
-  if (!snapshot.concentration.empty())
+  compare(PlaneQuantity::stress, "stress", own.stress);
+  compare(PlaneQuantity::velocity, "velocity", own.velocity);
+  compare(PlaneQuantity::displacement, "displacement", own.displacement);
+  if (!own.concentration.empty())
     compare(PlaneQuantity::concentration, "concentration",
-            nodes_as_points(grid_of(*c.plate, leaf.cells), snapshot.concentration, snapshot.time));
-  if (!snapshot.crack_density.empty()) sample.plate = damage_fields(c, leaf, snapshot);
+            nodes_as_points(grid_of(*c.plate, leaf.cells), own.concentration, own.time));
+  if (!at.crack_density.empty()) sample.plate = damage_fields(c, leaf, at);
   for (const PlateProbe& probe : c.plate_probes)
-    sample.probes.push_back(read_plate_probe(c, leaf, probe, snapshot, sample.plate));
-  if (running.keep_fields) sample.files = vtu_fields(c, leaf, snapshot);
+    sample.probes.push_back(read_plate_probe(c, leaf, probe, at, sample.plate, run.platen));
+  if (running.keep_fields) sample.files = vtu_fields(c, leaf, at);
   return sample;
 }
 
@@ -313,21 +321,17 @@ reports::Run run_plate(const Case& whole, const Leaf& leaf, const TimeStep& step
   const Case c = with_parameters(whole, leaf);
   reports::Run run = describe_plate(c, leaf);
   const auto exact = make_plane_exact(c);
-  Stepping stepping = plan_steps(c.times.back(), step, c.times, books_of(c, leaf, running.books));
+  const Plan plan = plan_steps(c.times, step, what_to_meet(c), books_of(c, leaf, running.books));
+  Stepping stepping = plan.stepping;
   stepping.cancelled = running.cancelled;
   run.time_step = stepping.time_step;
   run.time_step_limit = step.limit;
   run.courant = stepping.time_step / step.unit;
-  if (std::adjacent_find(stepping.sample_after.begin(), stepping.sample_after.end()) != stepping.sample_after.end()) {
-    run.invalid = "two sample times fall on one step";
-    run.status = "completed";
-    return run;
-  }
   const Plate plate = mechanical(c) ? make_plate(c, leaf.cells) : Plate{};
   const auto begin = std::chrono::steady_clock::now();
-  const PlateRecord record = mechanical(c)                ? solve(c, plate, leaf, stepping)
-                             : c.plate->diffusion->spread ? run_dilatancy(c, leaf, stepping)
-                                                          : run_diffusion(c, leaf, stepping);
+  PlateRecord record = mechanical(c)                ? solve(c, plate, leaf, stepping)
+                       : c.plate->diffusion->spread ? run_dilatancy(c, leaf, stepping)
+                                                    : run_diffusion(c, leaf, stepping);
   run.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   take_outcome(record, run);
   if (mechanical(c)) {
@@ -336,13 +340,17 @@ reports::Run run_plate(const Case& whole, const Leaf& leaf, const TimeStep& step
   }
   if (record.outcome != Outcome::completed) return run;
 
-  for (std::size_t i = 0; i < record.snapshots.size(); ++i)
-    run.samples.push_back(
-        measure_sample(c, leaf, record.snapshots[i], c.times[i], exact.get(), running, stepping.time_step));
   for (std::size_t n = 0; n < record.platen.size(); ++n) {
-    run.platen.x.push_back(static_cast<double>(n + 1) * stepping.time_step);
+    run.platen.x.push_back(static_cast<double>(n + 1) * stepping.time_step + record.platen_ahead);
     run.platen.y.push_back(record.platen[n]);
   }
+  const std::vector<PlateSnapshot> own = taken_after(plan.nearest, record.snapshots);
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    const PlateSnapshot at = at_instant(record.snapshots, own[i].step, stepping.time_step, c.times[i]);
+    run.samples.push_back(measure_sample(c, leaf, own[i], at, c.times[i], exact.get(), running, run));
+  }
+  stepping.sample_after = plan.own_steps();
+  record.snapshots = taken_after(stepping.sample_after, record.snapshots);
   measure_fields(c, leaf, record, run);
   if (record.diffusion_updates > 0)
     run.measures["diffusion.updates"] =

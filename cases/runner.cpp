@@ -50,12 +50,6 @@ double cell_time(const Scene& scene, const Leaf& leaf) {
   return scene.bars[0].length / leaf.cells / largest_wave_speed(scene);
 }
 
-Stepping plan(const Case& c, const Leaf& leaf, const TimeStep& step, Books least) {
-  std::vector<double> times;
-  for (const double time : c.times) times.push_back(instant(c, leaf, time));
-  return plan_steps(times.back(), step, times, books_of(c, leaf, least));
-}
-
 /// Numbers that differ between two records after scaling; a different number of samples counts as one more. NaN where
 /// there are only zeros.
 double differing(const Record& a, const Record& b, const PowersOfTwo& by, bool mirror) {
@@ -184,8 +178,10 @@ void measure_limit(const Case& c, const Leaf& leaf, const Scene& scene, const st
   }
 }
 
-reports::Sample measure_sample(const Case& c, const Leaf& leaf, const Snapshot& snapshot, double asked, double time,
-                               const analytic::ExactSolution* exact, const reports::Run& run) {
+/// own: errors are those of each field at its own time, next to the instant; at: what is read and drawn is the
+/// instant's.
+reports::Sample measure_sample(const Case& c, const Leaf& leaf, const Snapshot& own, const Snapshot& at, double asked,
+                               double time, const analytic::ExactSolution* exact, const reports::Run& run) {
   const double unit = time_unit(c, c.time_unit), origin = instant(c, leaf, 0);
   const bool moves = c.convected || c.bars.size() > 1;
   const std::vector<Span> bars = spans_of(c, leaf.cells);
@@ -194,10 +190,12 @@ reports::Sample measure_sample(const Case& c, const Leaf& leaf, const Snapshot& 
   sample.time = (time - origin) / unit;
   const auto theory = discretisation(c, leaf, run.courant);
   for (const auto& [q, name] : quantities) {
-    const Field& field = field_of(snapshot, q);
+    const Field& field = field_of(own, q);
     if (drawn(c, leaf, "profiles")) {
-      sample.curves[name] = polyline(snapshot, q, leaf, moves);
-      if (exact && exact->gives(q)) sample.exact_curves[name] = exact_line(*exact, q, bars, field.time, moves);
+      sample.curves[name] = polyline(at, q, leaf, moves);
+      if (exact && exact->gives(q)) {
+        sample.exact_curves[name] = exact_line(*exact, q, bars, at.displacement.time, moves);
+      }
     }
     if (!exact || !exact->gives(q)) continue;
     const double scale = exact->scale(q);
@@ -216,7 +214,7 @@ reports::Sample measure_sample(const Case& c, const Leaf& leaf, const Snapshot& 
     error.predicted_linf = predicted(analytic::Norm::linf);
     sample.errors.push_back(error);
   }
-  for (const Probe& probe : c.probes) sample.probes.push_back(read_probe(c, leaf, probe, snapshot));
+  for (const Probe& probe : c.probes) sample.probes.push_back(read_probe(c, leaf, probe, at));
   return sample;
 }
 
@@ -311,19 +309,16 @@ reports::Run run_leaf(const Case& whole, const Leaf& leaf, const TimeStep& step,
   reports::Run run = describe(c, leaf);
   const Scene scene = make_scene(c, leaf.cells);
   const auto exact = make_exact(c, leaf);
-  Stepping stepping = plan(c, leaf, step, running.books);
+  std::vector<double> instants;
+  for (const double time : c.times) instants.push_back(instant(c, leaf, time));
+  const Plan plan = plan_steps(instants, step, what_to_meet(c), books_of(c, leaf, running.books));
+  Stepping stepping = plan.stepping;
   stepping.cancelled = running.cancelled;
   run.time_step = stepping.time_step;
   run.time_step_limit = step.limit;
   run.courant = stepping.time_step / step.unit;
-  if (std::adjacent_find(stepping.sample_after.begin(), stepping.sample_after.end()) != stepping.sample_after.end()) {
-    run.invalid = "two sample times fall on one step";
-    run.status = "completed";
-    return run;
-  }
-
-  const std::vector<long> samples = stepping.sample_after;
   const std::vector<long> motion = drawn(c, leaf, "motion") ? steps_of_motion(c, leaf, stepping) : std::vector<long>{};
+  const std::vector<long>& samples = plan.stepping.sample_after;
   stepping.sample_after.clear();
   std::set_union(samples.begin(), samples.end(), motion.begin(), motion.end(),
                  std::back_inserter(stepping.sample_after));
@@ -337,21 +332,15 @@ reports::Run run_leaf(const Case& whole, const Leaf& leaf, const TimeStep& step,
   measure_ledger(mass, record.sums, record.ledger, run);
   if (record.outcome != Outcome::completed) return run;
 
-  const auto taken_at = [&](const std::vector<long>& steps) {
-    std::vector<Snapshot> those;
-    for (const Snapshot& s : record.snapshots)
-      if (std::binary_search(steps.begin(), steps.end(), s.step)) those.push_back(s);
-    return those;
-  };
-  if (!motion.empty()) {
-    trace(taken_at(motion), scene, exact.get(), run);
-    record.snapshots = taken_at(samples);
-    stepping.sample_after = samples;
+  if (!motion.empty()) trace(taken_after(motion, record.snapshots), scene, exact.get(), run);
+  const std::vector<Snapshot> own = taken_after(plan.nearest, record.snapshots);
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    const double time = static_cast<double>(own[i].step) * stepping.time_step;
+    const Snapshot at = at_instant(record.snapshots, own[i].step, stepping.time_step, instants[i]);
+    run.samples.push_back(measure_sample(c, leaf, own[i], at, c.times[i], time, exact.get(), run));
   }
-  for (std::size_t i = 0; i < record.snapshots.size(); ++i) {
-    const double time = static_cast<double>(record.snapshots[i].step) * stepping.time_step;
-    run.samples.push_back(measure_sample(c, leaf, record.snapshots[i], c.times[i], time, exact.get(), run));
-  }
+  stepping.sample_after = plan.own_steps();
+  record.snapshots = taken_after(stepping.sample_after, record.snapshots);
   measure_outcomes(scene, spans_of(c, leaf.cells), record, stepping.time_step, exact.get(), run);
   measure_early_contact(c, leaf, record, run);
   measure_bits(c, leaf, scene, stepping, record, run);

@@ -7,7 +7,7 @@
 
 #include "cases/case.hpp"
 #include "cases/leaf.hpp"
-#include "cases/measures.hpp"
+#include "cases/instants.hpp"
 #include "material/record.hpp"
 #include "reports/results.hpp"
 

@@ -241,7 +241,7 @@ class Bars {
     }
     return sum;
   }
-  std::vector<Touch> touches() const { return touches_; }
+  void hand_over(Record& record) { record.touches = touches_; }
   /// Told by what this run has built up, not by what the scene asks for.
   std::vector<std::string> features() const {
     std::vector<std::string> active{Law::feature};

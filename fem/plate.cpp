@@ -290,7 +290,6 @@ class Body {
     });
     return free ? elastic(plate_).density * plate_.width * plate_.height : 0;
   }
-  static std::vector<Touch> touches() { return {}; }
   /// Told by what this run has built up, not by what the scene asks for.
   std::vector<std::string> features() const {
     std::vector<std::string> active{evolution_ ? "damage" : dilatancy_ ? "failure-wave" : "elastic"};
@@ -320,12 +319,12 @@ class Body {
     if (dilatancy_) sum.bytes += dilatancy_->bytes();
     return sum;
   }
-  std::vector<double> take_platen() { return std::move(platen_); }
-  std::vector<GaugeRecord> take_gauges() { return std::move(gauges_); }
-  long diffusion_updates() const {
-    return evolution_ ? evolution_->node_updates() : dilatancy_ ? dilatancy_->node_updates() : 0;
+  void hand_over(PlateRecord& record) {
+    record.platen = std::move(platen_);
+    record.gauges = gauges_;
+    record.fed = evolution_ ? evolution_->fed() : dilatancy_ ? dilatancy_->fed() : 0;
+    record.diffusion_updates = evolution_ ? evolution_->node_updates() : dilatancy_ ? dilatancy_->node_updates() : 0;
   }
-  double fed() const { return evolution_ ? evolution_->fed() : dilatancy_ ? dilatancy_->fed() : 0; }
 
  private:
   // ---- building up ----
@@ -1150,12 +1149,7 @@ PlateRecord run(const Plate& plate, const Cells& cells, const std::optional<diff
   check(plate, cells, evolution, spread);
   const auto go = [&]<Kind kind>() {
     Body<kind> body(plate, cells, evolution, spread, stepping);
-    PlateRecord record = take_steps<PlateRecord>(body, stepping);
-    record.platen = body.take_platen();
-    record.gauges = body.take_gauges();
-    record.fed = body.fed();
-    record.diffusion_updates = body.diffusion_updates();
-    return record;
+    return take_steps<PlateRecord>(body, stepping);
   };
   if (spread) {
     return plate.viscosity ? go.template operator()<Kind{false, false, true, true}>()

@@ -136,6 +136,7 @@ struct PlateRecord : BasicRecord<PlateSnapshot> {
   double approach = 0;              ///< MPM with a gap: time of flight until the two met [s]
   double left_over = 0;        ///< MPM with a gap: how far they were apart (< 0: too near) when they were joined [m]
   std::vector<double> platen;  ///< displacement of the platen along its outward normal after each step [m]; or empty
+  double platen_ahead = 0;     ///< how much later than the end of its step each of them stands: MPM, USF [s]
 };
 
 }  // namespace diptych

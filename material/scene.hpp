@@ -77,7 +77,7 @@ struct Stepping {
   /// nine tenths of the wave speed the crossing of cells adds 1.7 %.
   double gains = 0.02;
   long steps = 0;                  ///< number of steps
-  std::vector<long> sample_after;  ///< step counts after which fields are sampled, ascending, each ≤ steps
+  std::vector<long> sample_after;  ///< step counts after which fields are sampled, ascending, from 0 to steps + 1
   Books books = Books::sums;
   int threads = 1;                               ///< plates; the results are the same bits for any number
   const std::atomic<bool>* cancelled = nullptr;  ///< asked between steps; true stops the run

@@ -38,7 +38,9 @@ inline bool finite(const Snapshot& s) {
   return all_finite(s.stress) && all_finite(s.velocity) && all_finite(s.displacement);
 }
 
-/// Takes the steps of a run with any method's body, samples it and keeps its ledger.
+/// Takes the steps of a run with any method's body, samples it and keeps its ledger. A sample wanted of the step after
+/// the last one, where a leapfrog field of the end is between two of its own times, is taken when everything else of
+/// the run has been handed over: that step leaves no other trace.
 template <class Result = Record, class Body>
 Result take_steps(Body& body, const Stepping& stepping) {
   Result record;
@@ -46,7 +48,16 @@ Result take_steps(Body& body, const Stepping& stepping) {
                 body.free_mass(),
                 {stepping.gains, stepping.limit > 0 ? stepping.time_step / stepping.limit : 0, body.gives_back()});
   auto next = stepping.sample_after.begin();
-  for (long n = 0; n < stepping.steps; ++n) {
+  const auto sample_after = [&](long steps) {
+    if (next == stepping.sample_after.end() || *next != steps) return;
+    record.snapshots.push_back(body.sample(steps));
+    ++next;
+    if (finite(record.snapshots.back())) return;
+    record.outcome = Outcome::unstable;
+    record.message = "a sampled value is not finite, at step " + std::to_string(steps);
+  };
+  sample_after(0);
+  for (long n = 0; n < stepping.steps && record.outcome == Outcome::completed; ++n) {
     if (stepping.cancelled && *stepping.cancelled) {
       record.outcome = Outcome::cancelled;
       record.message = "stopped on request";
@@ -65,22 +76,20 @@ Result take_steps(Body& body, const Stepping& stepping) {
       record.message = ledger.trouble(Result::energy_unit) + ", at step " + std::to_string(n + 1);
       break;
     }
-    if (next != stepping.sample_after.end() && *next == n + 1) {
-      record.snapshots.push_back(body.sample(n + 1));
-      ++next;
-      if (!finite(record.snapshots.back())) {
-        record.outcome = Outcome::unstable;
-        record.message = "a sampled value is not finite, at step " + std::to_string(n + 1);
-        break;
-      }
-    }
+    sample_after(n + 1);
   }
   record.time = static_cast<double>(record.steps) * stepping.time_step;
   record.sums = ledger.sums();
   record.ledger = ledger.take_lines();
-  record.touches = body.touches();
   record.features = body.features();
   record.work = body.work(record.steps);
+  body.hand_over(record);
+  if (record.outcome == Outcome::completed && next != stepping.sample_after.end()) {
+    Ledger none(Books::off, stepping.time_step, 0, 0, 0, 0);
+    none.begin_step(1);
+    body.step(stepping.steps, none);
+    if (body.trouble().empty()) sample_after(stepping.steps + 1);
+  }
   return record;
 }
 

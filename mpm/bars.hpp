@@ -132,8 +132,8 @@ class Bars {
     const bool usf = scheme_ == Scheme::usf;
     Snapshot s;
     s.step = n;
-    s.stress.time = usf ? time - half : time;
-    s.velocity.time = usf ? time : time - half;
+    s.stress.time = usf ? std::max(time - half, half) : time;
+    s.velocity.time = usf ? time : std::max(time - half, 0.0);
     s.displacement.time = usf ? time + half : time;
     s.stress.first.clear();
     for (std::size_t b = 0; b < members_.size(); ++b) {
@@ -173,7 +173,7 @@ class Bars {
     }
     return sum;
   }
-  std::vector<Touch> touches() const { return touches_; }
+  void hand_over(Record& record) { record.touches = touches_; }
   /// Told by what this run has built up, not by what the scene asks for.
   std::vector<std::string> features() const {
     std::vector<std::string> active{Law::feature};

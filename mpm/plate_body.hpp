@@ -228,7 +228,6 @@ class Body {
   double free_mass() const {
     return supports_.free() ? particles_.state().mass * static_cast<double>(particles_.count()) : 0;
   }
-  static std::vector<Touch> touches() { return {}; }
   /// Told by what this run has built up, not by what the scene asks for.
   std::vector<std::string> features() const {
     std::vector<std::string> active{damaging ? "damage" : failing ? "failure-wave" : "elastic"};
@@ -250,14 +249,15 @@ class Body {
                 ceiling_.capacity() * sizeof(double) + (evolution_ ? evolution_->bytes() : 0) +
                 (dilatancy_ ? dilatancy_->bytes() : 0) + (damping_ ? damping_->bytes() : 0)};
   }
-  std::vector<double> take_platen() { return std::move(platen_); }
-  std::vector<GaugeRecord> take_gauges() { return std::move(gauges_); }
-  long diffusion_updates() const {
-    return evolution_ ? evolution_->node_updates() : dilatancy_ ? dilatancy_->node_updates() : 0;
+  void hand_over(PlateRecord& record) {
+    record.platen = std::move(platen_);
+    record.platen_ahead = scheme_ == Scheme::usf ? dt_ / 2 : 0;
+    record.gauges = gauges_;
+    record.fed = evolution_ ? evolution_->fed() : dilatancy_ ? dilatancy_->fed() : 0;
+    record.diffusion_updates = evolution_ ? evolution_->node_updates() : dilatancy_ ? dilatancy_->node_updates() : 0;
+    record.approach = static_cast<double>(flight_steps_) * dt_;
+    record.left_over = left_over_;
   }
-  double fed() const { return evolution_ ? evolution_->fed() : dilatancy_ ? dilatancy_->fed() : 0; }
-  double approach() const { return static_cast<double>(flight_steps_) * dt_; }
-  double left_over() const { return left_over_; }
 
  private:
   // --- how the plate starts ------------------------------------------------------------------------------------------
@@ -642,7 +642,7 @@ class Body {
 
   double time_of_stress(long n) const {
     const double time = static_cast<double>(n) * dt_;
-    return scheme_ == Scheme::usf ? time - dt_ / 2 : time;
+    return scheme_ == Scheme::usf ? std::max(time - dt_ / 2, dt_ / 2) : time;
   }
 
   // --- books ---------------------------------------------------------------------------------------------------------
@@ -833,14 +833,7 @@ class Body {
 template <class Particles, class PlateLaw>
 PlateRecord run_body(const Setup& setup) {
   Body<Particles, PlateLaw> body(setup);
-  PlateRecord record = take_steps<PlateRecord>(body, setup.stepping);
-  record.platen = body.take_platen();
-  record.gauges = body.take_gauges();
-  record.fed = body.fed();
-  record.diffusion_updates = body.diffusion_updates();
-  record.approach = body.approach();
-  record.left_over = body.left_over();
-  return record;
+  return take_steps<PlateRecord>(body, setup.stepping);
 }
 
 using Whole = Law<Damage::none, false>;

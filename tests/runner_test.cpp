@@ -77,10 +77,16 @@ BOOST_AUTO_TEST_CASE(features_other_than_declared_make_a_run_invalid) {
   BOOST_TEST(run.invalid.find("viscosity") != std::string::npos, run.invalid);
 }
 
-BOOST_AUTO_TEST_CASE(two_sample_times_on_one_step_make_a_run_invalid) {
-  Case c = by_id("bar.step.free-free");
-  c.times = {0.5, 0.5001};
-  BOOST_TEST(!run_leaf(c, leaves(c).at(0)).invalid.empty());
+BOOST_AUTO_TEST_CASE(two_sample_times_on_one_step_are_two) {
+  Case c = by_id("bar.free-fall");
+  c.times = {0.5, 0.5001, 1.0};
+  for (const Leaf& leaf : leaves(c)) {
+    const auto run = run_leaf(c, leaf);
+    BOOST_TEST_REQUIRE(run.samples.size() == 3U);
+    BOOST_TEST(run.invalid == "");
+    for (const auto& sample : run.samples)
+      BOOST_TEST(sample.probes.at(0).value == 9 * sample.asked, tt::tolerance(1e-12));
+  }
 }
 
 // The exact solution's own test looks long enough, however short the runs.
