@@ -6,9 +6,11 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <map>
 
 #include "cases/judging.hpp"
+#include "cases/messages.hpp"
 #include "cases/plate_figures.hpp"
 #include "cases/uncertainty.hpp"
 
@@ -69,12 +71,16 @@ std::vector<double> sizes_of(const Series& series) {
   return sizes;
 }
 
-/// Per mesh: how far the methods are apart, and the band within which that is expected.
+/// Of one mesh.
 struct Apart {
-  std::vector<double> difference, band;
+  std::array<double, 2> values{};  ///< of each method; NaN where what is compared is no single number
+  double difference = 0;
+  double band = 0;  ///< within which that is expected: the root of the sum of the squares of both uncertainties
+  double size = 0;  ///< of what is compared, in its unit
 };
+using Meshes = std::vector<Apart>;
 
-Apart of_values(const std::array<Series, 2>& both, const std::function<double(const Run&)>& value) {
+Meshes of_values(const std::array<Series, 2>& both, const std::function<double(const Run&)>& value) {
   std::array<std::vector<double>, 2> values;
   std::array<Uncertainty, 2> uncertainty;
   for (std::size_t m = 0; m < 2; ++m) {
@@ -86,27 +92,34 @@ Apart of_values(const std::array<Series, 2>& both, const std::function<double(co
     }
     uncertainty[m] = discretisation_uncertainty(sizes_of(both[m]), values[m]);
   }
-  Apart apart;
+  Meshes meshes;
   for (std::size_t k = 0; k < both[0].size(); ++k) {
-    apart.difference.push_back(std::abs(values[0][k] - values[1][k]));
-    apart.band.push_back(std::hypot(uncertainty[0].of(k), uncertainty[1].of(k)));
+    const double a = values[0][k], b = values[1][k];
+    meshes.push_back({{a, b},
+                      std::abs(a - b),
+                      std::hypot(uncertainty[0].of(k), uncertainty[1].of(k)),
+                      (std::abs(a) + std::abs(b)) / 2});
   }
-  return apart;
+  return meshes;
 }
 
-Apart of_contours(const std::array<Series, 2>& both, double time, double level) {
-  Apart apart;
-  apart.band.assign(both[0].size(), 0);
+/// The band is the largest of 19 radii, and the least radius is the size.
+Meshes of_contours(const std::array<Series, 2>& both, double time, double level) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN(), any = std::numeric_limits<double>::infinity();
+  Meshes meshes(both[0].size(), {{none, none}, 0, 0, any});
   for (int angle = 0; angle <= 90; angle += 5) {
     const auto radii =
         of_values(both, [&](const Run& run) { return radius_along(crack_density_of(run, time), level, angle); });
-    for (std::size_t k = 0; k < apart.band.size(); ++k) apart.band[k] = std::max(apart.band[k], radii.band[k]);
+    for (std::size_t k = 0; k < meshes.size(); ++k) {
+      meshes[k].band = std::max(meshes[k].band, radii[k].band);
+      meshes[k].size = std::min(meshes[k].size, radii[k].size);
+    }
   }
-  for (std::size_t k = 0; k < both[0].size(); ++k) {
+  for (std::size_t k = 0; k < meshes.size(); ++k) {
     const auto lines = [&](std::size_t m) { return contour(crack_density_of(*both[m][k], time), level); };
-    apart.difference.push_back(hausdorff(lines(0), lines(1)));
+    meshes[k].difference = hausdorff(lines(0), lines(1));
   }
-  return apart;
+  return meshes;
 }
 
 /// "platen.history" or "gauge.ID.xx", ".yy" or ".dilatancy".
@@ -126,37 +139,53 @@ History history_of(const Run& run, const std::string& quantity) {
   return history;
 }
 
-Apart of_histories(const std::array<Series, 2>& both, const std::string& quantity) {
+/// Distances of histories are parts of them: their size is 1.
+Meshes of_histories(const std::array<Series, 2>& both, const std::string& quantity) {
   const auto history = [&](const Run& run) { return history_of(run, quantity); };
-  Apart apart;
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  Meshes meshes;
   const std::size_t finest = both[0].size() - 1;
   for (std::size_t k = 0; k <= finest; ++k) {
-    apart.difference.push_back(sprague_geers(history(*both[1][k]), history(*both[0][k])).combined);
     std::array<double, 2> own{};
     for (std::size_t m = 0; m < 2; ++m)
       own[m] = sprague_geers(history(*both[m][std::min(k, finest - 1)]), history(*both[m][finest])).combined;
-    apart.band.push_back(std::hypot(own[0], own[1]));
+    meshes.push_back({{none, none},
+                      sprague_geers(history(*both[1][k]), history(*both[0][k])).combined,
+                      std::hypot(own[0], own[1]),
+                      1});
   }
-  return apart;
+  return meshes;
 }
 
-void judge(const std::array<Series, 2>& both, const Apart& apart, const GateSpec& gate, const std::string& when,
-           reports::Gate& result) {
+/// A band that is a good part of the value itself expects anything.
+constexpr double widest_band = 0.25;
+
+void judge(const std::array<Series, 2>& both, const Meshes& meshes, const GateSpec& gate, double time,
+           const std::string& when, reports::Gate& result) {
   std::vector<double> judged;
   for (std::size_t k = 0; k < both[0].size(); ++k) {
-    if (std::find(gate.judged.begin(), gate.judged.end(), both[0][k]->cells) == gate.judged.end()) continue;
-    if (!(apart.band[k] > 0))
-      invalid(fmt::format("{} cells{}: no uncertainty to compare with", both[0][k]->cells, when));
-    if (!(apart.difference[k] > 1e-12 * apart.band[k]))
+    const Apart& one = meshes[k];
+    const int cells = both[0][k]->cells;
+    const auto named = std::find(gate.judged.begin(), gate.judged.end(), cells);
+    if (named == gate.judged.end()) continue;
+    const std::string where = fmt::format("{} cells{}", cells, when);
+    if (!(one.band > 0)) invalid(where + ": no uncertainty to compare with");
+    if (!(one.band <= widest_band * one.size))
       invalid(
-          fmt::format("{} cells{}: the two methods give the same number: one of them twice, or a bound that both "
-                      "have reached?",
-                      both[0][k]->cells, when));
-    hold(result,
-         {fmt::format("{} cells{}: {:.3g} apart, expected within {:.3g}", both[0][k]->cells, when, apart.difference[k],
-                      apart.band[k]),
-          apart.difference[k], apart.band[k], -*gate.max, *gate.max, apart.difference[k] / apart.band[k], false});
-    judged.push_back(apart.difference[k]);
+          fmt::format("{}: the uncertainty {:.3g} is {:.0f} % of the value {:.3g}, more than {:.0f} %: nothing is "
+                      "judged by it",
+                      where, one.band, 100 * one.band / one.size, one.size, 100 * widest_band));
+    if (!(one.difference > 1e-12 * one.band))
+      invalid(where + ": the two methods give the same number: one of them twice, or a bound that both have reached?");
+    result.agreements.push_back({cells, time, one.values, one.difference, one.band, one.size});
+    hold(result, {fmt::format("{}: {:.3g} apart, expected within {:.3g}", where, one.difference, one.band),
+                  one.difference, one.band, -*gate.max, *gate.max, one.difference / one.band, false});
+    if (!gate.apart.empty()) {
+      const double limit = gate.apart[static_cast<std::size_t>(named - gate.judged.begin())];
+      hold(result, {fmt::format("{}: {:.2g} % apart", where, 100 * one.difference / one.size), one.difference, one.size,
+                    -limit, limit, one.difference / one.size, false});
+    }
+    judged.push_back(one.difference);
   }
   if (judged.size() != gate.judged.size())
     invalid(fmt::format("{} of {} meshes to judge were run", judged.size(), gate.judged.size()));
@@ -165,36 +194,72 @@ void judge(const std::array<Series, 2>& both, const Apart& apart, const GateSpec
                 judged.back() / judged.front(), false});
 }
 
+/// Per method and time: what the values on the judged meshes span, of the last one. No trend hides in that.
+void judge_probe_settling(const Case& c, const GateSpec& gate, std::map<std::string, Series>& by_method,
+                          reports::Gate& result) {
+  const std::string id = gate.quantity.substr(gate.quantity.find('.') + 1);
+  result.formula = fmt::format("what {} spans on {} cells, of its value on the last ≤ {:g}", gate.quantity,
+                               listed(gate.judged), *gate.max);
+  for (auto& [method, series] : by_method) {
+    std::erase_if(series, [&](const Run* run) {
+      return std::find(gate.judged.begin(), gate.judged.end(), run->cells) == gate.judged.end();
+    });
+    std::sort(series.begin(), series.end(), [](const Run* a, const Run* b) { return a->cells < b->cells; });
+    if (series.size() != gate.judged.size())
+      invalid(fmt::format("{}: {} of {} meshes to judge were run", method, series.size(), gate.judged.size()));
+    for (const double time : gate.times.empty() ? c.times : gate.times) {
+      std::vector<double> values;
+      std::vector<std::string> shown;
+      for (const Run* run : series) {
+        values.push_back(probe_of(*run, time, id));
+        shown.push_back(fmt::format("{:.4g}", values.back()));
+        if (!std::isfinite(values.back())) invalid(fmt::format("{}: {} is not finite", run->label(), gate.quantity));
+      }
+      const auto [least, most] = std::minmax_element(values.begin(), values.end());
+      if (*least == *most) invalid(fmt::format("{}, t = {:g} s: the same number on every mesh", method, time));
+      const double span = *most - *least, last = std::abs(values.back());
+      hold(result, {fmt::format("{}, t = {:g} s: {}", method, time, listed(shown)), span, last, -*gate.max, *gate.max,
+                    span / last, false});
+    }
+  }
+}
+
 }  // namespace
 
 void judge_agreement(const Case& c, const GateSpec& gate, const std::vector<const Run*>& runs, reports::Gate& result) {
   const auto both = both_methods(runs);
-  result.formula = fmt::format("|{} − {}| of {} / √(U² + U²) ≤ {:g}{}", both[0][0]->method, both[1][0]->method,
-                               gate.quantity, *gate.max, gate.shrinks ? ", and it shrinks" : "");
+  result.formula =
+      fmt::format("|{} − {}| of {} / √(U² + U²) ≤ {:g}{}{}", both[0][0]->method, both[1][0]->method, gate.quantity,
+                  *gate.max, gate.apart.empty() ? "" : fmt::format(", at most {} of the value", listed(gate.apart)),
+                  gate.shrinks ? ", and it shrinks" : "");
   if (gate.quantity == "platen.history" || gate.quantity.starts_with("gauge.")) {
-    judge(both, of_histories(both, gate.quantity), gate, "", result);
+    judge(both, of_histories(both, gate.quantity), gate, std::nan(""), "", result);
     return;
   }
   for (const double time : gate.times.empty() ? c.times : gate.times) {
     const std::string when = fmt::format(", t = {:g} s", time);
     if (gate.quantity == "contour.distance") {
-      judge(both, of_contours(both, time, gate.level), gate, when, result);
+      judge(both, of_contours(both, time, gate.level), gate, time, when, result);
     } else {
       const std::string id = gate.quantity.substr(gate.quantity.find('.') + 1);
-      judge(both, of_values(both, [&](const Run& run) { return probe_of(run, time, id); }), gate, when, result);
+      judge(both, of_values(both, [&](const Run& run) { return probe_of(run, time, id); }), gate, time, when, result);
     }
   }
 }
 
-void judge_settling(const GateSpec& gate, const std::vector<const Run*>& runs, reports::Gate& result) {
+void judge_settling(const Case& c, const GateSpec& gate, const std::vector<const Run*>& runs, reports::Gate& result) {
   std::map<std::string, Series> by_method;
   for (const Run* run : runs) {
     check_judgeable(*run);
     by_method[run->method].push_back(run);
   }
-  const auto both = by_method.size() == 2 ? both_methods(runs) : std::array<Series, 2>{};
   if (by_method.empty() || by_method.size() > 2)
     invalid(fmt::format("{} methods; one or two settle", by_method.size()));
+  if (gate.quantity.starts_with("probe.")) {
+    judge_probe_settling(c, gate, by_method, result);
+    return;
+  }
+  const auto both = by_method.size() == 2 ? both_methods(runs) : std::array<Series, 2>{};
   result.formula =
       fmt::format("Sprague–Geers distance of {} between successive meshes{}: each at most {:g} of the one before",
                   gate.quantity, by_method.size() == 2 ? ", and between the methods" : "", *gate.max);

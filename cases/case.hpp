@@ -101,12 +101,13 @@ struct GateSpec {
   bool over_time_step = false;                 ///< order: of the time step on each mesh; else of the mesh
   std::string outcome;                         ///< limit: "unstable" where the runs must be detected as unstable
   long steps = 2000;                           ///< limit: steps of each trial of the bisection
-  std::vector<int> judged;                     ///< agreement: meshes on which the methods must agree
+  std::vector<int> judged;                     ///< agreement, settling of probes: meshes that the gate is about
   double level = 0;                            ///< agreement of contours: of C_d
   bool shrinks = true;                         ///< agreement: the difference must do so from coarse to fine
-  bool slow = false;                           ///< left out by --quick, and then reported as left out
-  int line = 0;                                ///< of its declaration
-  std::string declaration;                     ///< its own keys and values in one canonical line, for gates.lock
+  std::vector<double> apart;  ///< agreement: most that the methods differ by on each of `judged`, of the value; or none
+  bool slow = false;          ///< left out by --quick, and then reported as left out
+  int line = 0;               ///< of its declaration
+  std::string declaration;    ///< its own keys and values in one canonical line, for gates.lock
 };
 
 /// A published range of speeds of failure fronts, with the delay after which they set off: a time window at each gauge.
@@ -131,9 +132,9 @@ struct FigureSpec {
   std::string id;     ///< "fig1"
   std::string title;  ///< empty: the case's
   /// "profiles" of a field at some times, or "motion": positions over time. Of a plate "contours" of both methods and
-  /// their difference, "problem": the scene itself, "history" of the platen, "sweep" of a probe over
-  /// a swept parameter, "choices": what each variant does, "agreement": how far the methods are apart and how far they
-  /// may be, "gauges": histories of stress, or "failure": the page on a failure wave.
+  /// their difference, "problem": the scene itself, "history" of the platen, "convergence": probes over the cell size,
+  /// "rupture": the load of rupture over the cell size, "choices": what each variant does, "agreement": how far the
+  /// methods are apart and how far they may be, "gauges": histories of stress, or "failure": the page on a failure wave.
   std::string kind = "profiles";
   std::string field = "stress";
   std::vector<double> times;          ///< subset of the sample times; empty: all
@@ -149,7 +150,9 @@ struct FigureSpec {
   std::optional<Zoom> zoom;                         ///< motion
   double magnify = 1;                               ///< motion: displacements are drawn so many times as large
   std::vector<double> levels;                       ///< contours, choices: of the field
-  std::string over, probe, variant;                 ///< sweep: the parameter, what is drawn, and of which variant
+  std::string over, probe;  ///< rupture: the load that is swept, and what is read
+  std::string variant;      ///< rupture, convergence: of which variant
+  std::vector<std::string> probes;                  ///< convergence: a panel each
   std::vector<std::string> gauges;                  ///< gauges: a panel each; empty: all
   std::vector<std::string> variants;                ///< gauges: a panel each, too; empty: the case as it stands
   std::vector<std::string> components;              ///< gauges: "longitudinal", "lateral"

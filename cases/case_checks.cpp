@@ -182,13 +182,13 @@ Names plate_quantities_of(const std::string& kind, const Case& c) {
     return names;
   };
   if (kind == "invariant") return with(plate_invariants, of_gauges({"prediction"}));
-  if (kind == "settling") return of_gauges({"xx", "yy", "dilatancy"});
   if (kind == "limit") return {"critical_courant", "stable"};
   Names names;
-  if (kind != "agreement")
+  if (kind == "settling") names = of_gauges({"xx", "yy", "dilatancy"});
+  if (kind != "agreement" && kind != "settling")
     for (const std::string& field : plate_fields)
       for (const char* norm : {".L1", ".L2", ".Linf"}) names.push_back(field + norm);
-  if (kind == "exact" || kind == "agreement")
+  if (kind == "exact" || kind == "agreement" || kind == "settling")
     for (const PlateProbe& probe : c.plate_probes) names.push_back("probe." + probe.id);
   if (kind == "agreement")
     names = with(with(names, {"contour.distance", "platen.history"}), of_gauges({"xx", "yy", "dilatancy"}));
@@ -208,7 +208,8 @@ Names variants_of(const Case& c) {
 }
 
 Names figure_kinds(const Case& c) {
-  if (c.plate) return {"contours", "problem", "history", "sweep", "choices", "agreement", "gauges", "failure"};
+  if (c.plate) return {"contours", "problem",   "history", "convergence", "rupture",
+                       "choices",  "agreement", "gauges",  "failure"};
   return {"profiles", "motion"};
 }
 
@@ -530,8 +531,11 @@ void check_settling(Table& t, const GateSpec& gate, const Case& c) {
     if (runs.size() > 1)
       place.say(fmt::format("found runs of {} that differ in more than the mesh ({}); allowed: one of them, in where",
                             method, listed(runs, "; ")));
+  const bool of_probe = gate.quantity.starts_with("probe.");  // which tells its meshes itself
+  if (of_probe && gate.judged.size() < 2)
+    t.place("judged").refuse(listed(gate.judged), "two meshes or more, for what changes between them");
   for (const auto& [method, cells] : meshes)
-    if (cells.size() < 4) place.say(fmt::format("found {} meshes of {}; allowed: at least 4", cells.size(), method));
+    if (cells.size() < 4 && !of_probe) place.say(fmt::format("found {} meshes of {}; allowed: at least 4", cells.size(), method));
 }
 
 /// A quantity of a plate needs what it is about.

@@ -430,11 +430,18 @@ GateSpec read_gate(Table& t, const Case& c) {
     return t.applies(key, "quantity", gate.quantity, {quantity});
   };
   const bool limit = gate.kind == "limit";
-  if (of("times", {"exact", "constant", "order", "invariant", "agreement"})) gate.times = read_times(t, c);
+  const bool settles = gate.kind == "settling" && gate.quantity.starts_with("probe.");
+  if (of("times", settles ? Names{"settling"} : Names{"exact", "constant", "order", "invariant", "agreement"}))
+    gate.times = read_times(t, c);
   if (of("max", {"exact", "invariant", "agreement", "settling"})) gate.max = t.must("max", not_negative());
-  if (c.plate && of("judged", {"agreement"})) {
+  if (c.plate && of("judged", settles ? Names{"agreement", "settling"} : Names{"agreement"})) {
     gate.judged = t.need("judged", set_of(number_of_cells()));
     among(t.place("judged"), gate.judged, all_axes(c).cells, "axes.cells");
+  }
+  if (c.plate && of("apart", {"agreement"})) {
+    gate.apart = t.get("apart", list_of(positive()));
+    if (!gate.apart.empty() && gate.apart.size() != gate.judged.size())
+      t.place("apart").refuse(words(gate.apart), "one part for each mesh of judged, " + listed(gate.judged));
   }
   if (c.plate && of("shrinks", {"agreement"})) gate.shrinks = t.get("shrinks", flag(), true);
   if (c.plate && t.applies("level", "quantity", gate.quantity, {"contour.distance"}))
@@ -507,20 +514,23 @@ FigureSpec read_figure(Table& t, const Case& c) {
     if (of("field", {"contours", "choices"}))
       figure.field = t.get("field", one_of({"crack-density", "damage"}), "crack-density");
     if (of("levels", {"contours", "choices"})) figure.levels = t.need("levels", set_of(positive()));
-    if (of("over", {"sweep"})) {
-      Names swept, probes;
-      for (const auto& entry : all_axes(c).parameters) swept.push_back(entry.first);
-      for (const PlateProbe& probe : c.plate_probes) probes.push_back(probe.id);
-      figure.over = t.need("over", one_of(swept));
-      figure.probe = t.need("probe", one_of(probes));
-      figure.variant = t.get("variant", one_of(variants_of(c)));
+    Names swept, probes, largest;
+    for (const auto& entry : all_axes(c).parameters) swept.push_back(entry.first);
+    for (const PlateProbe& probe : c.plate_probes) {
+      probes.push_back(probe.id);
+      if (probe.reads == "largest") largest.push_back(probe.id);
     }
-    for (const char* key : {"probe", "variant"}) of(key, {"sweep"});
+    if (of("over", {"rupture"})) figure.over = t.need("over", one_of(swept));
+    if (of("probe", {"rupture"})) figure.probe = t.need("probe", one_of(largest));
+    if (of("probes", {"convergence"})) figure.probes = t.need("probes", set_of(one_of(probes)));
+    if (of("variant", {"convergence", "rupture"})) figure.variant = t.get("variant", one_of(variants_of(c)));
     read_gauge_figure(t, figure, c);
   } else if (of("field", {"profiles"})) {
     figure.field = t.get("field", one_of(fields), figure.field);
   }
-  if (of("times", {"profiles", "contours", "choices", "sweep"})) figure.times = read_times(t, c);
+  if (of("times", {"profiles", "contours", "choices", "convergence", "rupture"})) figure.times = read_times(t, c);
+  if (figure.kind == "convergence" && figure.times.size() != 1)
+    t.place("times").refuse(listed(figure.times), "one time of sample.times.at");
   if (of("captions", {"profiles"})) figure.captions = t.get("captions", list_of(text()));
   if (of("magnify", {"motion"})) figure.magnify = t.get("magnify", positive(), figure.magnify);
   if (of("zoom", {"motion"})) {
@@ -538,7 +548,10 @@ FigureSpec read_figure(Table& t, const Case& c) {
     if (t.has(key) || axis.size() > 1) return t.need(key, rule);
     return axis.empty() ? std::decay_t<decltype(axis[0])>{} : axis[0];  // empty: the axes' own mistake
   };
-  figure.cells = one_of_axis("cells", number_of_cells(), axes.cells);
+  const bool of_all_meshes = contains({"convergence", "rupture"}, figure.kind);
+  Names of_one_mesh = figure_kinds(c);
+  std::erase_if(of_one_mesh, [](const std::string& kind) { return kind == "convergence" || kind == "rupture"; });
+  if (of("cells", of_one_mesh)) figure.cells = one_of_axis("cells", number_of_cells(), axes.cells);
   figure.choices = t.get("choices", text());
   figure.methods = t.get("methods", set_of(one_of(methods_of(c))), axes.method);
   const std::size_t before = t.mistakes();
@@ -576,7 +589,7 @@ FigureSpec read_figure(Table& t, const Case& c) {
       figure.parameters[name] = values.front();
   }
 
-  bool good = figure.cells > 0 && figure.courant > 0 && !figure.particles.empty() && t.mistakes() == before;
+  bool good = (figure.cells > 0 || of_all_meshes) && figure.courant > 0 && !figure.particles.empty() && t.mistakes() == before;
   if (figure.cells > 0) good &= among(t.place("cells"), std::vector{figure.cells}, axes.cells, "axes.cells");
   for (const std::string& method : figure.methods) {
     if (figure.courant_of(method) > 0)
@@ -587,7 +600,7 @@ FigureSpec read_figure(Table& t, const Case& c) {
     good &= among(t.place("particles"), std::vector<std::vector<double>>{figure.particles}, axes.particles,
                   "axes.particles");
   const std::vector<Leaf> runs = leaves(c);
-  if (contains({"problem", "sweep", "agreement", "gauges", "failure"}, figure.kind))
+  if (contains({"problem", "convergence", "rupture", "agreement", "gauges", "failure"}, figure.kind))
     return figure;  // of no run, or of many
   for (const std::string& method : figure.methods) {
     const Leaf leaf{method, figure.cells, figure.courant_of(method),

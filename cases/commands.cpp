@@ -201,7 +201,8 @@ int draw_figures(const std::vector<reports::Case>& results, const std::filesyste
   bool missing = false;
   const auto draw_each = [&](const auto& figures) {
     for (const auto& figure : figures) {
-      if (!wanted.empty() && !wanted.count(figure.id.substr(0, figure.id.find('.')))) continue;
+      const std::string page = figure.id.substr(0, figure.id.rfind('.'));  // a page's pictures go by its name
+      if (!wanted.empty() && !wanted.count(figure.id) && !wanted.count(page)) continue;
       std::string message;
       const reports::Drawn drawn = reports::draw(figure, directory, message);
       if (drawn == reports::Drawn::yes) {
@@ -256,9 +257,9 @@ bool all_completed(const std::vector<Case>& cases, const std::vector<reports::Ca
   return good;
 }
 
-/// "fig3" means fig3 and fig3a, fig3b.
+/// "fig3" means fig3 and fig3a, fig3b; "runaway" also runaway-tracked.
 bool names_figure(const std::string& wanted, const std::string& id) {
-  if (id == wanted) return true;
+  if (id == wanted || id.starts_with(wanted + '-')) return true;
   return id.size() == wanted.size() + 1 && id.rfind(wanted, 0) == 0 &&
          std::isalpha(static_cast<unsigned char>(id.back()));
 }

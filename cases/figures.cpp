@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cases/build.hpp"
+#include "cases/convergence_figures.hpp"
 #include "cases/figure_runs.hpp"
 #include "cases/gauge_figures.hpp"
 #include "cases/leaf.hpp"
@@ -198,7 +199,8 @@ void add_figures(const Case& whole, reports::Case& result) {
       if (spec.kind == "problem") result.problem_figures.push_back(problem_figure(c, spec));
       if (spec.kind == "contours") result.plate_figures.push_back(contour_figure(c, spec, runs));
       if (spec.kind == "history") result.figures.push_back(history_figure(c, spec, runs));
-      if (spec.kind == "sweep") result.figures.push_back(sweep_figure(whole, spec, runs));
+      if (spec.kind == "convergence") result.figures.push_back(convergence_figure(c, spec, runs));
+      if (spec.kind == "rupture") result.figures.push_back(rupture_figure(whole, spec, runs));
       if (spec.kind == "gauges") result.figures.push_back(gauge_figure(c, spec, runs));
       if (spec.kind == "failure") add_failure_page(c, spec, result);
       if (spec.kind == "agreement") add_agreement(c, spec, result);

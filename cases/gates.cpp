@@ -262,7 +262,7 @@ Gate judge(const Case& c, const GateSpec& gate, const std::vector<Run>& runs) {
       if (gate.kind == "agreement")
         judge_agreement(c, gate, spoken_of, result);
       else
-        judge_settling(gate, spoken_of, result);
+        judge_settling(c, gate, spoken_of, result);
     } else {
       const auto readings = read(c, gate, runs);
       if (gate.max) judge_maximum(gate, readings, result);

@@ -22,7 +22,7 @@ Books books_of(const Case& c, const Leaf& leaf, Books least) {
   if (!c.ledger) return Books::off;
   const bool asked = std::any_of(c.gates.begin(), c.gates.end(), [&](const GateSpec& gate) {
     const auto of = [&](const char* what) { return gate.quantity.starts_with(what); };
-    return (of("energy.") || of("momentum.") || of("plastic.work")) && matches(gate.where, leaf);
+    return (of("energy.") || of("momentum.") || of("plastic.work") || of("stable")) && matches(gate.where, leaf);
   });
   return asked ? std::max(least, Books::sums) : least;
 }

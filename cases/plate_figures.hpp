@@ -9,13 +9,13 @@
 
 namespace diptych::cases {
 
+/// Lines under a figure's title: the scene, what the diffusion is read as, and what the paper leaves open.
+std::vector<std::string> plate_notes(const Case&, const FigureSpec&);
 /// C_d, or D for "damage", on the nodes.
 NodalMap map_of(const reports::PlateFields&, const std::string& field);
 reports::PlateFigure contour_figure(const Case&, const FigureSpec&, const std::vector<reports::Run>&);
 reports::ProblemFigure problem_figure(const Case&, const FigureSpec&);
 reports::Figure history_figure(const Case&, const FigureSpec&, const std::vector<reports::Run>&);
-/// A probe at the last of the figure's times over a swept parameter, a panel for each mesh.
-reports::Figure sweep_figure(const Case&, const FigureSpec&, const std::vector<reports::Run>&);
 /// How far the methods are apart and how far they may be, as the gates of kind "agreement" have found: a page.
 void add_agreement(const Case&, const FigureSpec&, reports::Case&);
 /// What each variant does to the contour: a page, and a picture for each of its rows.

@@ -729,6 +729,15 @@ class Body {
     });
   }
 
+  /// ψ of each triangle where the last step began and where it ended [J/m³].
+  std::array<std::array<double, 2>, 4> stored_along(Index cell) const {
+    const Triangles now = strains(at(corners_.u, middles_.u, cell % nx_, cell / nx_), h_),
+                    rate = strains(at(corners_.v, middles_.v, cell % nx_, cell / nx_), h_);
+    std::array<std::array<double, 2>, 4> energy{};
+    for (Index t = 0; t < 4; ++t) energy[t] = {stored(cell, t, now[t] - rate[t] * dt_), stored(cell, t, now[t])};
+    return energy;
+  }
+
   /// Stresses of a cell at uⁿ; false if they are those of the whole solid, which are not kept. Adds to `taken` what
   /// damage and flow dissipate of each triangle [J/m³].
   bool answer(Index cell, double* taken) {
@@ -739,15 +748,13 @@ class Body {
       const double crack_density = evolution_->crack_density()[cell];
       Cracked& cracked = cracked_[cell];
       if (crack_density != cracked.crack_density) {
-        const auto all_stored = [&] {
-          const Triangles strain = strain_of_cell();
-          double sum = 0;
-          for (Index t = 0; t < 4; ++t) sum += stored(cell, t, strain[t]);
-          return sum;
-        };
-        if (taken) *taken += all_stored();
+        std::array<std::array<double, 2>, 4> before{};
+        if (taken) before = stored_along(cell);
         cracked = {crack_density, damage().damaged_stiffness(crack_density)};
-        if (taken) *taken -= all_stored();
+        if (taken) {
+          const auto after = stored_along(cell);
+          for (Index t = 0; t < 4; ++t) *taken += std::min(before[t][0] - after[t][0], before[t][1] - after[t][1]);
+        }
       }
       if (crack_density != 0) {
         now = cracked.stiffness;
@@ -933,12 +940,12 @@ class Body {
   // the energy ψ of what can be got back and
   //   Sⁿ⁺½ = Σ A [ψⁿ + ½ σⁿ:(εⁿ⁺¹ − εⁿ)]
   // this is −Sⁿ⁺½ + Sⁿ⁻½ − Dⁿ, where Dⁿ = Sⁿ⁻½ − Σ A [ψⁿ − ½ σⁿ:(εⁿ − εⁿ⁻¹)] is nothing for a linear solid. Of it the
-  // material takes what damage takes at the strain at which it grows, ψ(εⁿ; C_dⁿ⁻¹) − ψ(εⁿ; C_dⁿ), and what flows,
-  // σⁿ:Δε_p: neither is ever negative. The rest is what the trapezium of the leapfrog misses of the path between two
-  // steps, where cracks close, crack or flow in between: the scheme's.
+  // material takes what damage takes at the least, the smaller of ψ(ε; C_dⁿ⁻¹) − ψ(ε; C_dⁿ) at both ends of the step, and
+  // what flows, σⁿ:Δε_p: neither is ever negative. The rest is what the trapezium of the leapfrog misses of the path
+  // between two steps, where cracks close, crack or flow in between: the scheme's.
   //
-  // A failure wave has an energy, but its stress is not that energy's derivative: all of Dⁿ is the material's, and of
-  // either sign.
+  // A failure wave has an energy, but its stress is not that energy's derivative, and neither is that of cracks which
+  // close whole: all of Dⁿ is the material's, and of either sign.
   void measure_energies(Ledger& ledger) {
     for_bands([&](Band& band) {
       for (Index j = band.begin; j < band.end; ++j) {
@@ -1010,12 +1017,17 @@ class Body {
     if constexpr (dissipative) {
       if (ledger.keeps()) between = dissipation();
     }
-    const double taken = failing ? between : std::accumulate(taken_.begin(), taken_.end(), 0.0);
+    const double taken = has_potential() ? std::accumulate(taken_.begin(), taken_.end(), 0.0) : between;
     double viscous_after = 0;
     if constexpr (viscous) viscous_after = viscous_work();
     ledger.close_line(sum.kinetic, sum.strain, taken, along_diagonal(sum.momentum), -viscous_after / 2);
     ledger.take_by_scheme(between - taken);
     ledger.take_by_viscosity(viscous_after);
+  }
+  bool has_potential() const {
+    if constexpr (failing) return false;
+    if constexpr (damaging) return damage().closure == material::Closure::volumetric;
+    return true;
   }
   double dissipation() {
     for_bands([&](Band& band) {

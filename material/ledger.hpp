@@ -29,8 +29,9 @@ struct Allowed {
 /// of length τ that takes v⁻ to v⁺ under forces f, the work is τ f·(v⁻ + v⁺)/2: the discrete kinetic energy changes by
 /// exactly that much.
 ///
-/// And it watches over the run: a passive scene never holds more than was put in. That is told from the work alone,
-/// which is added up in every step, and the energies at hand; without books these are asked for now and then.
+/// And it watches over the run: a passive scene never holds, and has never spent, more than was put in. That is told
+/// from the work, which is added up in every step, and the energies at hand; without books these are asked for now and
+/// then, and what was spent is not known.
 class Ledger {
  public:
   /// first_time: of the velocity in the first line [s]; free_mass: of bars that no support holds, else 0 [kg].
@@ -94,14 +95,14 @@ class Ledger {
     std::ostringstream text;
     text.precision(3);
     const bool grows = !(magnitude_ <= bound_);
-    text << "more energy than was put in: " << (grows ? magnitude_ : inside_) << ' ' << unit << " held, "
+    text << "more energy than was put in: " << (grows ? magnitude_ : inside_) << ' ' << unit << " held or spent, "
          << largest_put_in_ << ' ' << unit << " put in at the most";
     if (grows)
       text << ", of which a stable step of this length holds up to " << bound_ << ": it grows with the steps";
     else if (!keeps())
       text << "; given by the material or the scheme (the books were not kept)";
-    else if (dissipated_ < scheme_ + contact_ + viscous_)
-      text << "; given by the material: " << -dissipated_ << ' ' << unit;
+    else if (most_dissipated_ - dissipated_ > -(scheme_ + contact_ + viscous_))
+      text << "; given by the material: " << most_dissipated_ - dissipated_ << ' ' << unit;
     else
       text << "; given by the scheme: " << -(scheme_ + contact_ + viscous_) << ' ' << unit;
     return text.str();
@@ -115,9 +116,12 @@ class Ledger {
 
   void watch(double kinetic, double strain, double momentum, double ahead) {
     const double flight = of_flight(momentum), put_in = opening_ + ahead_ + work_;
+    // What was spent is gone: what comes back of it is too much.
+    most_dissipated_ = std::max(most_dissipated_, dissipated_);
+    const double inside = kinetic + strain + most_dissipated_ + std::max(0.0, viscous_) + ahead;
     largest_put_in_ = std::max(largest_put_in_, put_in - flight);
-    inside_ = kinetic - flight + strain + ahead;
-    excess_ = kinetic + strain + ahead - put_in;
+    inside_ = inside - flight;
+    excess_ = inside - put_in;
     magnitude_ = kinetic - flight + std::abs(strain);
     const double round_off = 1e-9 * kinetic;
     room_ = (allowed_.scheme + allowed_.material) * largest_put_in_ + round_off;
@@ -129,7 +133,6 @@ class Ledger {
   void add(const LedgerLine& line) {
     ++sums_.lines;
     sums_.last = line;
-    most_dissipated_ = std::max(most_dissipated_, line.dissipated);
     sums_.given_back = std::max(sums_.given_back, most_dissipated_ - line.dissipated);
     sums_.excess = std::max(sums_.excess, excess_);
     sums_.put_in = largest_put_in_ + 1e-9 * line.kinetic;  // a body in flight has been given nothing inside

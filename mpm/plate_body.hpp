@@ -433,7 +433,7 @@ class Body {
     }
     if constexpr (!convected) {
       strain_and_force<Do::strain>(velocity, dt);
-      if constexpr (damaging) crack(dt, books);
+      if constexpr (damaging) crack(velocity, dt, books);
       if constexpr (failing) dilate(dt);
       internal_force();
     }
@@ -534,13 +534,13 @@ class Body {
     }
     half_work_ = work_of_stress(velocity) / 2;
     // What the trapezium of the leapfrog finds gone; nothing where the law is linear. Of it the material takes what
-    // damage takes at the strain at which it grows and what flows, and the scheme the rest: see fem/plate.cpp. All of a
-    // failure wave is the material's.
+    // damage takes at the least and what flows, and the scheme the rest; all of it where the stress has no potential:
+    // see fem/plate.cpp.
     double between = 0, taken = 0;
     if constexpr (staggered || PlateLaw::plastic) between = stored_and_half + half_work_ - stored_energy();
-    if constexpr (failing) taken = between;
     if constexpr (damaging) taken += taken_by_damage_;
     if constexpr (PlateLaw::plastic) taken += work_of_flow();
+    if (!law_.has_potential()) taken = between;
     const double viscous = damping_ ? work_of_viscosity(velocity) / 2 : 0;
     ledger.close_line(kinetic_energy(), stored_and_half, taken, momentum(), lent_ - viscous / 2);
     ledger.take_by_scheme(between - taken);
@@ -549,7 +549,7 @@ class Body {
   }
 
   /// Each cell's mean strain gives it its crack density at the strains' own time.
-  void crack(double dt, bool books) {
+  void crack(const VectorField& velocity, double dt, bool books) {
     bands_.for_each([&](Band& band) {
       for (std::size_t j = band.first; j < band.last; ++j) {
         for (std::size_t i = 0; i < nx_; ++i)
@@ -557,9 +557,17 @@ class Body {
       }
     });
     evolution_->advance(volumetric_strain_, dt);
-    if (books) taken_by_damage_ = stored_energy();
+    if (!books) {
+      law_.crack(evolution_->crack_density());
+      return;
+    }
+    stored_before_.resize(particles_.storage());
+    sum([&](const Place& at) { return (stored_before_[at.particle] = stored_along(at, velocity, dt))[0]; });
     law_.crack(evolution_->crack_density());
-    if (books) taken_by_damage_ -= stored_energy();
+    taken_by_damage_ = particles_.state().volume * sum([&](const Place& at) {
+                         const auto before = stored_before_[at.particle], after = stored_along(at, velocity, dt);
+                         return std::min(before[0] - after[0], before[1] - after[1]);
+                       });
   }
 
   /// Each cell's mean strain shows the diffusion its ceiling, and its dilatancy at the strains' own time comes back.
@@ -744,6 +752,12 @@ class Body {
     return state.volume *
            sum([&](const Place& at) { return law_.stored(state.strain[at.particle], at.cell, at.particle); });
   }
+  /// ψ of a particle where the last strain increment began and where it ended [J/m³].
+  std::array<double, 2> stored_along(const Place& at, const VectorField& velocity, double dt) {
+    const material::Tensor now = particles_.state().strain[at.particle];
+    return {law_.stored(now - at.gradient(velocity, grid_) * dt, at.cell, at.particle),
+            law_.stored(now, at.cell, at.particle)};
+  }
   /// σ:Δε_p of the last update.
   double work_of_flow() {
     return particles_.state().volume * sum([&](const Place& at) {
@@ -825,6 +839,7 @@ class Body {
   long flight_steps_ = 0;
   // For the books:
   std::vector<double> row_sums_;
+  std::vector<std::array<double, 2>> stored_before_;  // of particles, before they crack
   double half_work_ = 0, half_work_of_kick_ = 0, reaction_ = 0, held_ = 0, driven_excess_ = 0, taken_by_damage_ = 0,
          lent_ = 0;
 };

@@ -157,6 +157,13 @@ class Law {
     return now.stress(strain).contract(strain) / 2;
   }
 
+  /// Whether the stress of a given crack density or dilatancy is the derivative of an energy.
+  bool has_potential() const {
+    if constexpr (failing) return false;
+    if constexpr (damaging) return material_.closure == material::Closure::volumetric;
+    return true;
+  }
+
   /// Keeps the plastic strains, or not, for work_of_flow after the next update.
   void note_flow(bool keep) {
     if (keep) plastic_before_ = plastic_strain_;

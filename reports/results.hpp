@@ -128,6 +128,15 @@ struct Check {
   bool passed = false;
 };
 
+/// Two methods beside each other on one mesh.
+struct Agreement {
+  int cells = 0;
+  double time = 0;                 ///< NaN: of a whole history [the case's unit of time]
+  std::array<double, 2> values{};  ///< of each method; NaN where what is compared is no single number
+  double apart = 0, expected = 0;  ///< the difference, and the band within which it was to be expected
+  double size = 0;                 ///< of what is compared; all in its unit
+};
+
 struct Gate {
   std::string case_id, id;  ///< full name is case_id/id
   std::string kind;         ///< "exact", "constant", "order", "invariant", "limit", "agreement"
@@ -137,6 +146,7 @@ struct Gate {
   Verdict verdict = Verdict::invalid;
   std::string message;        ///< why, where not passed
   std::vector<Check> checks;  ///< never empty for a judged gate
+  std::vector<Agreement> agreements = {};  ///< of kind "agreement"
   int line = 0;               ///< of its declaration in the case file
   /// Least (distance to the nearer edge)/(half width) over the checks: 1 in the middle of the band, 0 on its edge,
   /// < 0 where failed, -infinity for a value that is not a number. A band with one infinite edge is measured by the

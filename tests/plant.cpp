@@ -42,12 +42,14 @@ std::string contents(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-void write(const fs::path& path, const std::string& text) {
-  if (fs::exists(path) && contents(path) == text) return;
+/// Leaves a file alone that holds the text already; whether it did not.
+bool write(const fs::path& path, const std::string& text) {
+  if (fs::exists(path) && contents(path) == text) return false;
   fs::create_directories(path.parent_path());
   std::ofstream file(path, std::ios::binary);
   file << text;
   if (!file.flush()) throw std::runtime_error("cannot write " + path.string());
+  return true;
 }
 
 // --- reading the defects ------------------------------------------------------------------------------------------
@@ -317,8 +319,8 @@ int plant(const fs::path& source, const fs::path& folder, const fs::path& out, c
   const auto copy = [&](const std::string& file) {
     const std::string text = contents(source / file);
     const auto places = planted.find(file);
-    write(out / file, "#include \"planted.hpp\"\n#line 1 " + quoted((source / file).string()) + "\n" +
-                          (places == planted.end() ? text : switched(text, 0, text.size(), places->second)));
+    return write(out / file, "#include \"planted.hpp\"\n#line 1 " + quoted((source / file).string()) + "\n" +
+                                 (places == planted.end() ? text : switched(text, 0, text.size(), places->second)));
   };
   for (const std::string& file : files) {
     if (planted.count(file) || of_the_solvers(file))
@@ -326,8 +328,19 @@ int plant(const fs::path& source, const fs::path& folder, const fs::path& out, c
     else  // the product's own object serves
       write(out / file, "// No defect is planted here.\n");
   }
+  // The build knows of these headers only what it has seen before it called for them: what may include one that is new,
+  // other or gone is compiled anew.
+  bool headers_differ = false;
   for (const auto& [file, places] : planted)
-    if (std::find(files.begin(), files.end(), file) == files.end()) copy(file);  // headers
+    if (std::find(files.begin(), files.end(), file) == files.end()) headers_differ = copy(file) || headers_differ;
+  for (const auto& entry : fs::recursive_directory_iterator(out)) {
+    const std::string name = fs::relative(entry.path(), out).generic_string();
+    if (entry.path().extension() != ".hpp" || name == "planted.hpp" || planted.count(name)) continue;
+    fs::remove(entry.path());
+    headers_differ = true;
+  }
+  if (headers_differ)
+    for (const std::string& file : files) fs::last_write_time(out / file, fs::file_time_type::clock::now());
   write(out / "planted.hpp", switch_header);
   write(out / "planted.cpp", the_switch(defects));
   write(out / "teeth.cmake", entries(defects, out));

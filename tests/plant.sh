@@ -53,6 +53,21 @@ check 'it is named' grep -q 'planted defect modulus: fem/bar.cpp: it no longer h
 check 'its own test fails' grep -q 'teeth.modulus sh -c "cat .*exit 1"' "$work/out/teeth.cmake"
 check 'the others do not' test "$(grep -c 'exit 1' "$work/out/teeth.cmake")" = 1
 
+# A header with a defect: what may include it is compiled anew when it changes, or when it has none any more.
+mkdir -p "$work/source/material" && echo 'inline double half(double x) { return x / 2; }' >"$work/source/material/half.hpp"
+printf '[[defect]]\nid = "half"\nfile = "material/half.hpp"\nfind = "x / 2"\nreplace = "x / 3"\nwhy = "a try"\ngates = ["a/b"]\n' \
+  >"$work/defects/material.toml"
+older() { find "$work/out" -name '*.[ch]pp' -exec touch -d '2020-01-01' {} + && run && [ "$work/out/fem/bar.cpp" "$1" "$work/before" ]; }
+touch -d '2021-01-01' "$work/before"
+run
+check 'what stays as it is is not compiled anew' older -ot
+echo '// more' >>"$work/source/material/half.hpp"
+check 'what may include a header that has changed is' older -nt
+check 'with the header' grep -q more "$work/out/material/half.hpp"
+rm "$work/defects/material.toml"
+check 'and what may include one without defects' older -nt
+check 'which is gone' test ! -e "$work/out/material/half.hpp"
+
 defect torn 'x + x' '2 * x' 'twice = x + x;' >"$work/defects/fem.toml"
 sed -i 's/x + x/3 * x + x/' "$work/source/fem/bar.cpp"
 sed -i 's/in = .*//' "$work/defects/fem.toml"
