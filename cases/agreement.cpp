@@ -20,12 +20,15 @@ namespace {
 using reports::Run;
 using reports::Verdict;
 
+constexpr std::size_t meshes_for_uncertainty = 4;
+
 /// Runs of one method from the coarsest mesh to the finest.
 using Series = std::vector<const Run*>;
 
 [[noreturn]] void invalid(const std::string& why) { throw Stop{Verdict::invalid, why}; }
 
-std::array<Series, 2> both_methods(const std::vector<const Run*>& runs) {
+/// least: number of meshes.
+std::array<Series, 2> both_methods(const std::vector<const Run*>& runs, std::size_t least) {
   std::map<std::string, Series> by_method;
   for (const Run* run : runs) {
     check_judgeable(*run);
@@ -42,7 +45,7 @@ std::array<Series, 2> both_methods(const std::vector<const Run*>& runs) {
   };
   if (meshes(both[0]) != meshes(both[1])) invalid("the methods were not run on the same meshes");
   const auto cells = meshes(both[0]);
-  if (cells.size() < 4) invalid(fmt::format("{} meshes, at least 4 are needed", cells.size()));
+  if (cells.size() < least) invalid(fmt::format("{} meshes, at least {} are needed", cells.size(), least));
   if (std::adjacent_find(cells.begin(), cells.end()) != cells.end()) invalid("two runs of a method on one mesh");
   return both;
 }
@@ -90,7 +93,10 @@ Meshes of_values(const std::array<Series, 2>& both, const std::function<double(c
         invalid(run->label() +
                 ": the quantity is not a finite number: the contour does not reach there, or the run has none");
     }
-    uncertainty[m] = discretisation_uncertainty(sizes_of(both[m]), values[m]);
+    if (values[m].size() >= meshes_for_uncertainty)
+      uncertainty[m] = discretisation_uncertainty(sizes_of(both[m]), values[m]);
+    else
+      uncertainty[m].band.assign(values[m].size(), std::numeric_limits<double>::quiet_NaN());
   }
   Meshes meshes;
   for (std::size_t k = 0; k < both[0].size(); ++k) {
@@ -169,17 +175,18 @@ void judge(const std::array<Series, 2>& both, const Meshes& meshes, const GateSp
     const auto named = std::find(gate.judged.begin(), gate.judged.end(), cells);
     if (named == gate.judged.end()) continue;
     const std::string where = fmt::format("{} cells{}", cells, when);
-    if (!(one.band > 0)) invalid(where + ": no uncertainty to compare with");
-    if (!(one.band <= widest_band * one.size))
+    if (gate.max && !(one.band > 0)) invalid(where + ": no uncertainty to compare with");
+    if (gate.max && !(one.band <= widest_band * one.size))
       invalid(
           fmt::format("{}: the uncertainty {:.3g} is {:.0f} % of the value {:.3g}, more than {:.0f} %: nothing is "
                       "judged by it",
                       where, one.band, 100 * one.band / one.size, one.size, 100 * widest_band));
-    if (!(one.difference > 1e-12 * one.band))
+    if (!(one.difference > 1e-12 * (gate.max ? one.band : one.size)))
       invalid(where + ": the two methods give the same number: one of them twice, or a bound that both have reached?");
     result.agreements.push_back({cells, time, one.values, one.difference, one.band, one.size});
-    hold(result, {fmt::format("{}: {:.3g} apart, expected within {:.3g}", where, one.difference, one.band),
-                  one.difference, one.band, -*gate.max, *gate.max, one.difference / one.band, false});
+    if (gate.max)
+      hold(result, {fmt::format("{}: {:.3g} apart, expected within {:.3g}", where, one.difference, one.band),
+                    one.difference, one.band, -*gate.max, *gate.max, one.difference / one.band, false});
     if (!gate.apart.empty()) {
       const double limit = gate.apart[static_cast<std::size_t>(named - gate.judged.begin())];
       hold(result, {fmt::format("{}: {:.2g} % apart", where, 100 * one.difference / one.size), one.difference, one.size,
@@ -227,11 +234,11 @@ void judge_probe_settling(const Case& c, const GateSpec& gate, std::map<std::str
 }  // namespace
 
 void judge_agreement(const Case& c, const GateSpec& gate, const std::vector<const Run*>& runs, reports::Gate& result) {
-  const auto both = both_methods(runs);
-  result.formula =
-      fmt::format("|{} − {}| of {} / √(U² + U²) ≤ {:g}{}{}", both[0][0]->method, both[1][0]->method, gate.quantity,
-                  *gate.max, gate.apart.empty() ? "" : fmt::format(", at most {} of the value", listed(gate.apart)),
-                  gate.shrinks ? ", and it shrinks" : "");
+  const auto both = both_methods(runs, gate.max ? meshes_for_uncertainty : 1);
+  result.formula = fmt::format("|{} − {}| of {}", both[0][0]->method, both[1][0]->method, gate.quantity);
+  if (gate.max) result.formula += fmt::format(" / √(U² + U²) ≤ {:g}", *gate.max);
+  if (!gate.apart.empty()) result.formula += fmt::format(", at most {} of the value", listed(gate.apart));
+  if (gate.shrinks) result.formula += ", and it shrinks";
   if (gate.quantity == "platen.history" || gate.quantity.starts_with("gauge.")) {
     judge(both, of_histories(both, gate.quantity), gate, std::nan(""), "", result);
     return;
@@ -259,7 +266,7 @@ void judge_settling(const Case& c, const GateSpec& gate, const std::vector<const
     judge_probe_settling(c, gate, by_method, result);
     return;
   }
-  const auto both = by_method.size() == 2 ? both_methods(runs) : std::array<Series, 2>{};
+  const auto both = by_method.size() == 2 ? both_methods(runs, meshes_for_uncertainty) : std::array<Series, 2>{};
   result.formula =
       fmt::format("Sprague–Geers distance of {} between successive meshes{}: each at most {:g} of the one before",
                   gate.quantity, by_method.size() == 2 ? ", and between the methods" : "", *gate.max);

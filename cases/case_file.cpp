@@ -433,7 +433,9 @@ GateSpec read_gate(Table& t, const Case& c) {
   const bool settles = gate.kind == "settling" && gate.quantity.starts_with("probe.");
   if (of("times", settles ? Names{"settling"} : Names{"exact", "constant", "order", "invariant", "agreement"}))
     gate.times = read_times(t, c);
-  if (of("max", {"exact", "invariant", "agreement", "settling"})) gate.max = t.must("max", not_negative());
+  const bool parts_alone = gate.kind == "agreement" && t.has("apart") && !t.has("max");
+  if (of("max", {"exact", "invariant", "agreement", "settling"}) && !parts_alone)
+    gate.max = t.must("max", not_negative());
   if (c.plate && of("judged", settles ? Names{"agreement", "settling"} : Names{"agreement"})) {
     gate.judged = t.need("judged", set_of(number_of_cells()));
     among(t.place("judged"), gate.judged, all_axes(c).cells, "axes.cells");
@@ -589,7 +591,8 @@ FigureSpec read_figure(Table& t, const Case& c) {
       figure.parameters[name] = values.front();
   }
 
-  bool good = (figure.cells > 0 || of_all_meshes) && figure.courant > 0 && !figure.particles.empty() && t.mistakes() == before;
+  bool good =
+      (figure.cells > 0 || of_all_meshes) && figure.courant > 0 && !figure.particles.empty() && t.mistakes() == before;
   if (figure.cells > 0) good &= among(t.place("cells"), std::vector{figure.cells}, axes.cells, "axes.cells");
   for (const std::string& method : figure.methods) {
     if (figure.courant_of(method) > 0)

@@ -86,6 +86,11 @@ struct Band {
   CornerForces forces;
 };
 
+/// What the material has taken in a step [J/m³].
+struct Taken {
+  double by_damage = 0, by_flow = 0;
+};
+
 /// Energies and momentum of a row of cells and of the nodes at its middle and bottom.
 struct RowSums {
   double kinetic = 0, strain = 0, dissipated = 0;
@@ -721,10 +726,10 @@ class Body {
   void update_stress(bool books) {
     for_bands([&](Band& band) {
       for (Index j = band.begin; j < band.end; ++j) {
-        double taken = 0;
+        Taken taken;
         for (Index cell = j * nx_; cell < (j + 1) * nx_; ++cell)
           answers_[cell] = answer(cell, dissipative && books ? &taken : nullptr);
-        if (dissipative && books) taken_[j] = h_.triangle_area() * taken;
+        if (dissipative && books) taken_[j] = taken;
       }
     });
   }
@@ -740,7 +745,7 @@ class Body {
 
   /// Stresses of a cell at uⁿ; false if they are those of the whole solid, which are not kept. Adds to `taken` what
   /// damage and flow dissipate of each triangle [J/m³].
-  bool answer(Index cell, double* taken) {
+  bool answer(Index cell, Taken* taken) {
     material::CrackedStiffness now{solid_, solid_};
     bool own = false;
     const auto strain_of_cell = [&] { return strains(at(corners_.u, middles_.u, cell % nx_, cell / nx_), h_); };
@@ -753,7 +758,8 @@ class Body {
         cracked = {crack_density, damage().damaged_stiffness(crack_density)};
         if (taken) {
           const auto after = stored_along(cell);
-          for (Index t = 0; t < 4; ++t) *taken += std::min(before[t][0] - after[t][0], before[t][1] - after[t][1]);
+          for (Index t = 0; t < 4; ++t)
+            taken->by_damage += std::min(before[t][0] - after[t][0], before[t][1] - after[t][1]);
         }
       }
       if (crack_density != 0) {
@@ -780,7 +786,7 @@ class Body {
         } else {
           double dissipated = 0;
           stress[t] = plate_.compression->stress(now.closed, strain, flown, dissipated);
-          if (taken) *taken += dissipated;
+          if (taken) taken->by_flow += dissipated;
         }
         own = own || flown.xx != 0 || flown.yy != 0 || flown.xy != 0;
       } else {
@@ -940,9 +946,9 @@ class Body {
   // the energy ψ of what can be got back and
   //   Sⁿ⁺½ = Σ A [ψⁿ + ½ σⁿ:(εⁿ⁺¹ − εⁿ)]
   // this is −Sⁿ⁺½ + Sⁿ⁻½ − Dⁿ, where Dⁿ = Sⁿ⁻½ − Σ A [ψⁿ − ½ σⁿ:(εⁿ − εⁿ⁻¹)] is nothing for a linear solid. Of it the
-  // material takes what damage takes at the least, the smaller of ψ(ε; C_dⁿ⁻¹) − ψ(ε; C_dⁿ) at both ends of the step, and
-  // what flows, σⁿ:Δε_p: neither is ever negative. The rest is what the trapezium of the leapfrog misses of the path
-  // between two steps, where cracks close, crack or flow in between: the scheme's.
+  // material takes what damage takes at the least, the smaller of ψ(ε; C_dⁿ⁻¹) − ψ(ε; C_dⁿ) at both ends of the step,
+  // and what flows, σⁿ:Δε_p: neither is ever negative. The rest is what the trapezium of the leapfrog misses of the
+  // path between two steps, where cracks close, crack or flow in between: the scheme's.
   //
   // A failure wave has an energy, but its stress is not that energy's derivative, and neither is that of cracks which
   // close whole: all of Dⁿ is the material's, and of either sign.
@@ -1017,10 +1023,16 @@ class Body {
     if constexpr (dissipative) {
       if (ledger.keeps()) between = dissipation();
     }
-    const double taken = has_potential() ? std::accumulate(taken_.begin(), taken_.end(), 0.0) : between;
+    Taken all;
+    for (const Taken& row : taken_) {
+      all.by_damage += h_.triangle_area() * row.by_damage;
+      all.by_flow += h_.triangle_area() * row.by_flow;
+    }
+    const double taken = has_potential() ? all.by_damage + all.by_flow : between;
     double viscous_after = 0;
     if constexpr (viscous) viscous_after = viscous_work();
-    ledger.close_line(sum.kinetic, sum.strain, taken, along_diagonal(sum.momentum), -viscous_after / 2);
+    const double by_damage = !damaging ? 0 : has_potential() ? all.by_damage : between;
+    ledger.close_line(sum.kinetic, sum.strain, taken, along_diagonal(sum.momentum), -viscous_after / 2, by_damage);
     ledger.take_by_scheme(between - taken);
     ledger.take_by_viscosity(viscous_after);
   }
@@ -1084,7 +1096,7 @@ class Body {
   std::vector<Drag> drag_;                // per row
   // for the books
   std::vector<RowSums> sums_;        // per row
-  std::vector<double> taken_;        // per row, by damage and flow [J/m]
+  std::vector<Taken> taken_;         // per row
   std::vector<double> recoverable_;  // per cell, likewise [J/m]
   std::vector<unsigned char> answered_;
   double body_work_rate_ = 0;

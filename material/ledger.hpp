@@ -29,9 +29,9 @@ struct Allowed {
 /// of length τ that takes v⁻ to v⁺ under forces f, the work is τ f·(v⁻ + v⁺)/2: the discrete kinetic energy changes by
 /// exactly that much.
 ///
-/// And it watches over the run: a passive scene never holds, and has never spent, more than was put in. That is told
-/// from the work, which is added up in every step, and the energies at hand; without books these are asked for now and
-/// then, and what was spent is not known.
+/// And it watches over the run: a passive scene never holds, and damage has never taken, more than was put in. That is
+/// told from the work, which is added up in every step, and the energies at hand; without books these are asked for now
+/// and then, and what was spent is not known.
 class Ledger {
  public:
   /// first_time: of the velocity in the first line [s]; free_mass: of bars that no support holds, else 0 [kg].
@@ -67,8 +67,11 @@ class Ledger {
   void take_by_viscosity(double energy) { viscous_ += energy; }
   void take_by_scheme(double energy) { scheme_ += energy; }
 
-  /// ahead: what the scheme's own energy holds beside kinetic + strain, for good or ill: see watch.
-  void close_line(double kinetic, double strain, double dissipated, double momentum, double ahead = 0) {
+  /// ahead: what the scheme's own energy holds beside kinetic + strain, for good or ill: see watch. by_damage: the
+  /// least that damage can have taken in this step, a part of `dissipated`. (What flows or is viscous is known no
+  /// better than the trapezium of a step knows it.)
+  void close_line(double kinetic, double strain, double dissipated, double momentum, double ahead = 0,
+                  double by_damage = 0) {
     const double held = kinetic + strain + dissipated_ + viscous_;  // strain starts from ψⁿ, so heat is of steps before
     // The books open with the first line: before it the leapfrog has no energy of its own.
     if (!open_) {
@@ -82,6 +85,7 @@ class Ledger {
       add({first_time_ + static_cast<double>(sums_.lines) * dt_, kinetic, strain, dissipated_, viscous_, contact_,
            scheme_, work_, work_ + opening_ - held - contact_ - scheme_, momentum, start_momentum_ + impulse_});
     dissipated_ += dissipated;
+    spent_ += by_damage;
   }
 
   /// More is held than was put in. What is kinetic beyond the shadow energy's bound (see Allowed) grows without end;
@@ -116,9 +120,9 @@ class Ledger {
 
   void watch(double kinetic, double strain, double momentum, double ahead) {
     const double flight = of_flight(momentum), put_in = opening_ + ahead_ + work_;
-    // What was spent is gone: what comes back of it is too much.
-    most_dissipated_ = std::max(most_dissipated_, dissipated_);
-    const double inside = kinetic + strain + most_dissipated_ + std::max(0.0, viscous_) + ahead;
+    // What damage took is gone: what comes back of it is too much.
+    most_spent_ = std::max(most_spent_, spent_);
+    const double inside = kinetic + strain + most_spent_ + ahead;
     largest_put_in_ = std::max(largest_put_in_, put_in - flight);
     inside_ = inside - flight;
     excess_ = inside - put_in;
@@ -133,6 +137,7 @@ class Ledger {
   void add(const LedgerLine& line) {
     ++sums_.lines;
     sums_.last = line;
+    most_dissipated_ = std::max(most_dissipated_, line.dissipated);
     sums_.given_back = std::max(sums_.given_back, most_dissipated_ - line.dissipated);
     sums_.excess = std::max(sums_.excess, excess_);
     sums_.put_in = largest_put_in_ + 1e-9 * line.kinetic;  // a body in flight has been given nothing inside
@@ -152,7 +157,7 @@ class Ledger {
   Allowed allowed_;
   bool due_ = true, open_ = false;
   double work_ = 0, impulse_ = 0, dissipated_ = 0, viscous_ = 0, contact_ = 0, scheme_ = 0, opening_ = 0, ahead_ = 0;
-  double largest_put_in_, most_dissipated_ = 0;
+  double largest_put_in_, most_dissipated_ = 0, spent_ = 0, most_spent_ = 0;
   double inside_ = 0, excess_ = 0, room_ = 0, magnitude_ = 0, bound_ = 0;  // of the last line
   LedgerSums sums_;
   std::vector<LedgerLine> lines_;

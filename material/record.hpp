@@ -65,7 +65,7 @@ struct LedgerSums {
   double lost = 0;        ///< |lost| [J]
   double momentum = 0;    ///< |momentum − impulse| [kg m/s]
   double given_back = 0;  ///< largest fall of `dissipated` below what it was before [J]
-  double excess = 0;      ///< of kinetic + strain + dissipated + viscous over what was put in [J]
+  double excess = 0;      ///< of kinetic + strain + what damage has taken over what was put in [J]
   double put_in = 0;      ///< the most that had been put in at any line: at the start and by work [J]
   bool finite = true;     ///< every entry was
 };

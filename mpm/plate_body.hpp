@@ -542,7 +542,8 @@ class Body {
     if constexpr (PlateLaw::plastic) taken += work_of_flow();
     if (!law_.has_potential()) taken = between;
     const double viscous = damping_ ? work_of_viscosity(velocity) / 2 : 0;
-    ledger.close_line(kinetic_energy(), stored_and_half, taken, momentum(), lent_ - viscous / 2);
+    const double by_damage = !damaging ? 0 : law_.has_potential() ? taken_by_damage_ : between;
+    ledger.close_line(kinetic_energy(), stored_and_half, taken, momentum(), lent_ - viscous / 2, by_damage);
     ledger.take_by_scheme(between - taken);
     ledger.take_by_viscosity(viscous);
     half_work_ += viscous;

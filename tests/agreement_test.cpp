@@ -318,6 +318,87 @@ BOOST_AUTO_TEST_CASE(values_that_do_not_change_with_the_mesh_have_no_uncertainty
   invalid("no uncertainty to compare with");
 }
 
+// U of a quarter of the value or more expects anything.
+BOOST_AUTO_TEST_CASE(an_uncertainty_that_is_too_wide_judges_nothing) {
+  for (const int cells : {10, 20, 40, 80}) {
+    const double h = 1.0 / cells;
+    probe("fem", cells, 0) = 1 + 6 * h;
+    probe("mpm-musl", cells, 0) = 1 + 4 * h;
+  }
+  invalid("20 cells, t = 1 s: the uncertainty ");
+  invalid("more than 25 %: nothing is judged by it");
+  c.gates[0].judged = {80};
+  c.gates[0].times = {1.0};
+  BOOST_TEST((judged().verdict == Verdict::pass), judged().message);
+}
+
+BOOST_AUTO_TEST_CASE(methods_may_be_apart_by_a_part_of_the_value) {
+  // 1 + h² against 1 + h²/2: 0.00125, 0.00031 and 0.00008 of the value.
+  c.gates[0].apart = {0.0013, 0.00032, 0.00008};
+  auto gate = judged();
+  BOOST_TEST((gate.verdict == Verdict::pass), gate.message);
+  BOOST_TEST(gate.checks.size() == 14u);  // two for each of three meshes, and whether it shrinks; at each time
+  BOOST_TEST(gate.checks[1].judged == 0.00125 / (1 + 0.001875), tt::tolerance(1e-9));
+  BOOST_TEST(gate.agreements.size() == 6u);
+  const auto& first = gate.agreements.front();
+  BOOST_TEST((first.cells == 20 && first.time == 1 && first.values[0] == probe("fem", 20, 0) &&
+              first.values[1] == probe("mpm-musl", 20, 0) && first.apart == gate.checks[0].value &&
+              first.expected == *gate.checks[0].predicted));
+  c.gates[0].apart = {0.0013, 0.0003, 0.00008};
+  gate = judged();
+  BOOST_TEST((gate.verdict == Verdict::fail));
+  BOOST_TEST(gate.message.find("40 cells, t = 1 s: 0.031 % apart") != std::string::npos, gate.message);
+  // Alone it needs no uncertainty, and no four meshes.
+  c.gates[0].max.reset();
+  c.gates[0].apart = {0.00032, 0.00008};
+  c.gates[0].judged = {40, 80};
+  c.gates[0].where.cells = {40, 80};
+  gate = judged();
+  BOOST_TEST((gate.verdict == Verdict::pass), gate.message);
+  BOOST_TEST(gate.checks.size() == 6u);
+  BOOST_TEST(std::isnan(gate.agreements[0].expected));
+}
+
+/// A gate on what a probe spans over some meshes.
+struct ProbeSettling : Fixture {
+  ProbeSettling() {
+    GateSpec& gate = c.gates[0];
+    gate.kind = "settling";
+    gate.max = 0.001;
+    gate.judged = {40, 80};
+  }
+};
+
+BOOST_FIXTURE_TEST_CASE(a_probe_settles_by_what_it_spans, ProbeSettling) {
+  auto gate = judged();  // 1 + h²: 1.000625 and 1.00015625
+  BOOST_TEST((gate.verdict == Verdict::pass), gate.message);
+  BOOST_TEST(gate.checks.size() == 4u);  // of two methods at two times
+  BOOST_TEST(gate.checks[0].judged == 0.00046875 / 1.00015625, tt::tolerance(1e-9));
+  BOOST_TEST(gate.headroom() > 0.5);
+  c.gates[0].judged = {20, 40, 80};  // a trend shows in the whole span: 0.0023
+  gate = judged();
+  BOOST_TEST((gate.verdict == Verdict::fail));
+  BOOST_TEST(gate.message.find("fem, t = 1 s: 1.002, 1.001, 1") != std::string::npos, gate.message);
+  c.gates[0].judged = {40, 80};
+  probe("mpm-musl", 40, 1) = 0.998;
+  gate = judged();
+  BOOST_TEST((gate.verdict == Verdict::fail));
+  BOOST_TEST(gate.message.find("mpm-musl, t = 2 s") != std::string::npos, gate.message);
+  c.gates[0].times = {1.0};
+  BOOST_TEST((judged().verdict == Verdict::pass));
+}
+
+BOOST_FIXTURE_TEST_CASE(what_cannot_settle_is_invalid, ProbeSettling) {
+  probe("fem", 40, 0) = std::numeric_limits<double>::quiet_NaN();
+  invalid("is not finite");
+  probe("fem", 40, 0) = probe("fem", 80, 0);
+  invalid("the same number on every mesh");
+  lose("fem", 40);
+  invalid("fem: 1 of 2 meshes to judge were run");
+  c.gates[0].where.method = {"mpm-usf"};
+  invalid("0 methods");
+}
+
 BOOST_AUTO_TEST_CASE(runs_that_failed_cannot_be_judged) {
   run("fem", 10).status = "unstable";
   BOOST_TEST((judged().verdict == Verdict::unstable));

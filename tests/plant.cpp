@@ -86,8 +86,8 @@ std::vector<Defect> read_defects(const fs::path& folder) {
       if (d.id.empty() || d.file.empty() || d.find.empty() || d.why.empty() || d.gates.empty() ||
           !entry.contains("replace"))
         throw wrong("a defect needs id, file, find, replace, why and gates");
-      if (d.verdict != "FAIL" && d.verdict != "INVALID" && d.verdict != "ERROR")
-        throw wrong("verdict = \"" + d.verdict + "\"; allowed: FAIL, INVALID, ERROR");
+      if (d.verdict != "FAIL" && d.verdict != "INVALID" && d.verdict != "ERROR" && d.verdict != "UNSTABLE")
+        throw wrong("verdict = \"" + d.verdict + "\"; allowed: FAIL, INVALID, ERROR, UNSTABLE");
       if (!ids.insert(d.id).second) throw wrong("there are two defects " + d.id);
       d.number = static_cast<int>(defects.size()) + 1;
       defects.push_back(std::move(d));
@@ -346,7 +346,7 @@ int plant(const fs::path& source, const fs::path& folder, const fs::path& out, c
   write(out / "teeth.cmake", entries(defects, out));
   std::string killed;
   for (const Defect& d : defects) {
-    if (d.verdict != "FAIL") continue;  // an oracle that fails its own test, a run that breaks: no gate was needed
+    if (d.verdict != "FAIL") continue;  // an oracle that fails its own test, a run that breaks or has too much energy: no gate needed
     for (const std::string& gate : d.gates) killed += gate + "\n";
   }
   write(out / "killed.txt", killed);

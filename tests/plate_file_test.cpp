@@ -125,6 +125,7 @@ probes = [
   { id = "c", reads = "concentration", at = [0.5, 1.5] },
   { id = "s", reads = "stress-xy", at = [1.0, 0] },
   { id = "b", reads = "acoustic-ratio" },
+  { id = "pl", reads = "platen" },
 ]
 [run]
 ledger = true
@@ -178,11 +179,16 @@ cells = 10
 parameters = { P = 7e8 }
 [[figure]]
 id = "swept"
-kind = "sweep"
+kind = "rupture"
 over = "P"
-probe = "r"
+probe = "l"
 variant = "tracked"
-cells = 10
+[[figure]]
+id = "converged"
+kind = "convergence"
+times = [2e-4]
+probes = ["r", "pl"]
+parameters = { P = 7e8 }
 )toml";
 
 /// An elastic plate with a mode of its own.
@@ -616,7 +622,7 @@ BOOST_AUTO_TEST_CASE(every_key_of_a_damaging_plate_is_read) {
   BOOST_TEST((c.axes[0].variant == std::vector<std::string>{"", "tracked"}));
   BOOST_TEST((c.axes[0].particles == std::vector<std::vector<double>>{{0.25, 0.75}, {0.5}}));
   BOOST_TEST((c.time_unit == "s" && c.times == std::vector<double>{1e-4, 2e-4} && c.ledger));
-  BOOST_REQUIRE_EQUAL(c.plate_probes.size(), 7u);
+  BOOST_REQUIRE_EQUAL(c.plate_probes.size(), 8u);
   BOOST_TEST((c.plate_probes[0].id == "r" && c.plate_probes[0].reads == "radius"));
   BOOST_TEST((c.plate_probes[0].level == 0.05 && c.plate_probes[0].angle == 45));
   BOOST_TEST((c.plate_probes[1].reads == "area" && c.plate_probes[1].level == 0.01));
@@ -631,11 +637,12 @@ BOOST_AUTO_TEST_CASE(every_key_of_a_damaging_plate_is_read) {
   BOOST_TEST((radius.where.variant == std::vector<std::string>{""}));
   BOOST_TEST((c.gates[2].level == 0.06 && c.gates[2].shrinks));
   BOOST_TEST((c.gates[3].expect == 3.0 && c.gates[3].max == 0.5));
-  BOOST_REQUIRE_EQUAL(c.figures.size(), 3u);
+  BOOST_REQUIRE_EQUAL(c.figures.size(), 4u);
   BOOST_TEST((c.figures[0].kind == "contours" && c.figures[0].field == "damage"));
   BOOST_TEST((c.figures[0].levels == std::vector<double>{0.01, 0.05} && c.figures[0].cells == 10));
   BOOST_TEST(c.figures[1].kind == "problem");
-  BOOST_TEST((c.figures[2].over == "P" && c.figures[2].probe == "r" && c.figures[2].variant == "tracked"));
+  BOOST_TEST((c.figures[3].kind == "convergence" && c.figures[3].probes == std::vector<std::string>{"r", "pl"}));
+  BOOST_TEST((c.figures[2].over == "P" && c.figures[2].probe == "l" && c.figures[2].variant == "tracked"));
 }
 
 BOOST_AUTO_TEST_CASE(every_key_of_a_mode_and_of_diffusion_alone_is_read) {
