@@ -24,7 +24,10 @@ Books books_of(const Case& c, const Leaf& leaf, Books least) {
     const auto of = [&](const char* what) { return gate.quantity.starts_with(what); };
     return (of("energy.") || of("momentum.") || of("plastic.work") || of("stable")) && matches(gate.where, leaf);
   });
-  return asked ? std::max(least, Books::sums) : least;
+  const bool shown = std::any_of(c.figures.begin(), c.figures.end(), [&](const FigureSpec& figure) {
+    return figure.kind == "choices" && figure.cells == leaf.cells;  // whose table has the energy that comes back
+  });
+  return asked || shown ? std::max(least, Books::sums) : least;
 }
 
 std::string status_of(Outcome outcome) {

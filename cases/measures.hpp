@@ -14,7 +14,8 @@
 
 namespace diptych::cases {
 
-/// What a run keeps of its books: at least so much, and their sums where a gate asks for something of them.
+/// What a run keeps of its books: at least so much, and their sums where a gate or a table asks for
+/// something of them.
 Books books_of(const Case&, const Leaf&, Books least);
 
 /// Of "mpm-usf", "mpm-usl" or "mpm-musl".
