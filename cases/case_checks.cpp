@@ -208,8 +208,8 @@ Names variants_of(const Case& c) {
 }
 
 Names figure_kinds(const Case& c) {
-  if (c.plate) return {"contours", "problem",   "history", "convergence", "rupture",
-                       "choices",  "agreement", "gauges",  "failure"};
+  if (c.plate)
+    return {"contours", "problem", "history", "convergence", "rupture", "choices", "agreement", "gauges", "failure"};
   return {"profiles", "motion"};
 }
 
@@ -535,7 +535,8 @@ void check_settling(Table& t, const GateSpec& gate, const Case& c) {
   if (of_probe && gate.judged.size() < 2)
     t.place("judged").refuse(listed(gate.judged), "two meshes or more, for what changes between them");
   for (const auto& [method, cells] : meshes)
-    if (cells.size() < 4 && !of_probe) place.say(fmt::format("found {} meshes of {}; allowed: at least 4", cells.size(), method));
+    if (cells.size() < 4 && !of_probe)
+      place.say(fmt::format("found {} meshes of {}; allowed: at least 4", cells.size(), method));
 }
 
 /// A quantity of a plate needs what it is about.
@@ -580,7 +581,7 @@ void check_plate_gate(Table& t, const GateSpec& gate, const Case& c) {
   needs({"platen.history"}, std::find(supports.begin(), supports.end(), Edge::Support::platen) != supports.end(),
         "a platen");
   needs({"area.error", "bits.repeat", "bits.threads", "bits.mirror", "bits.power-of-two", "energy.drift", "energy.lost",
-         "energy.closure", "momentum.drift", "critical_courant"},
+         "energy.closure", "energy.given-back", "energy.excess", "momentum.drift", "critical_courant"},
         c.plate->material.has_value(), "a material");
   if (gate.kind == "agreement" && !c.axes.empty()) check_agreement(t, gate, c);
   const bool of_ledger = gate.quantity.starts_with("energy.") || gate.quantity.starts_with("momentum.");

@@ -17,9 +17,9 @@ inline const Names fields{"stress", "velocity", "displacement"};
 /// What a run with several bars or plasticity tells beside its fields, each with what the exact solution says of it.
 inline const Names outcomes{"contact.begin",    "contact.early",       "contact.end",
                             "contact.duration", "contact.restitution", "plastic.work"};
-inline const Names invariants{
-    "energy.drift", "energy.lost", "energy.closure", "momentum.drift", "bits.power-of-two",
-    "bits.mirror",  "bits.repeat", "bits.alone",     "bits.inviscid",  "cross.fem-on-half-the-cells"};
+inline const Names invariants{"energy.drift",  "energy.lost",    "energy.closure",    "energy.given-back",
+                              "energy.excess", "momentum.drift", "bits.power-of-two", "bits.mirror",
+                              "bits.repeat",   "bits.alone",     "bits.inviscid",     "cross.fem-on-half-the-cells"};
 
 /// Methods that can take the case's scene.
 const Names& methods_of(const Case&);
