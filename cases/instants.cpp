@@ -74,7 +74,7 @@ Meet what_to_meet(const Case& c) {
   return measures_order ? Meet::last : Meet::all;
 }
 
-Plan plan_steps(const std::vector<double>& instants, const TimeStep& step, Meet meet, Books books) {
+Plan plan_steps(const std::vector<double>& instants, const TimeStep& step, Meet meet, Read read, Books books) {
   const double end = instants.back(), needed = end / step.asked;
   Plan plan;
   Stepping& stepping = plan.stepping;
@@ -98,10 +98,10 @@ Plan plan_steps(const std::vector<double>& instants, const TimeStep& step, Meet 
   for (const double t : instants) {
     const double steps = t / stepping.time_step;
     plan.nearest.push_back(std::max(1L, std::lround(steps)));
-    // Leapfrog fields stand at whole steps or half a step before or after them.
-    const double at = whole(steps) ? std::round(steps) : steps;
-    const long first = std::max(0L, static_cast<long>(std::floor(at - 0.5)));
-    for (long n = first; n <= std::min(first + 2, stepping.steps + 1); ++n) stepping.sample_after.push_back(n);
+    const double at = whole(steps) ? std::round(steps) : steps, beside = read == Read::all ? 0.5 : 0;
+    const long first = std::max(0L, static_cast<long>(std::floor(at - beside)));
+    const long last = read == Read::all ? first + 2 : static_cast<long>(std::ceil(at));
+    for (long n = first; n <= std::min(last, stepping.steps + 1); ++n) stepping.sample_after.push_back(n);
   }
   auto& samples = stepping.sample_after;
   samples.insert(samples.end(), plan.nearest.begin(), plan.nearest.end());

@@ -35,10 +35,14 @@ enum class Meet { all, last };
 /// The order of a scheme shows where Δt/h is the same on all meshes: a case that measures it keeps its step.
 Meet what_to_meet(const Case&);
 
+/// Which of a run's fields are read at the instants: those that stand at whole steps, as damage does, or all, some of
+/// which stand half a step beside them.
+enum class Read { whole, all };
+
 /// Steps of equal length, none longer than the one asked for, that meet the last of the instants [s], ascending and
 /// > 0. Meet::all: all of them, where 16 steps more or 1 in 25 are enough for that. A step that fits the end as it is
 /// asked for stays as it is: at Courant number 1 FEM is exact.
-Plan plan_steps(const std::vector<double>& instants, const TimeStep&, Meet, Books);
+Plan plan_steps(const std::vector<double>& instants, const TimeStep&, Meet, Read, Books);
 
 /// The snapshots of these steps.
 template <class Snapshot>

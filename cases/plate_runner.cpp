@@ -321,7 +321,13 @@ reports::Run run_plate(const Case& whole, const Leaf& leaf, const TimeStep& step
   const Case c = with_parameters(whole, leaf);
   reports::Run run = describe_plate(c, leaf);
   const auto exact = make_plane_exact(c);
-  const Plan plan = plan_steps(c.times, step, what_to_meet(c), books_of(c, leaf, running.books));
+  const bool at_a_place = std::any_of(c.plate_probes.begin(), c.plate_probes.end(), [](const PlateProbe& probe) {
+    return probe.reads.starts_with("displacement") || probe.reads.starts_with("velocity") ||
+           probe.reads.starts_with("stress");
+  });
+  const bool halves = running.keep_fields || at_a_place || leaf.method == "mpm-usf";  // whose damage stands there, too
+  const Plan plan =
+      plan_steps(c.times, step, what_to_meet(c), halves ? Read::all : Read::whole, books_of(c, leaf, running.books));
   Stepping stepping = plan.stepping;
   stepping.cancelled = running.cancelled;
   run.time_step = stepping.time_step;

@@ -311,7 +311,7 @@ reports::Run run_leaf(const Case& whole, const Leaf& leaf, const TimeStep& step,
   const auto exact = make_exact(c, leaf);
   std::vector<double> instants;
   for (const double time : c.times) instants.push_back(instant(c, leaf, time));
-  const Plan plan = plan_steps(instants, step, what_to_meet(c), books_of(c, leaf, running.books));
+  const Plan plan = plan_steps(instants, step, what_to_meet(c), Read::all, books_of(c, leaf, running.books));
   Stepping stepping = plan.stepping;
   stepping.cancelled = running.cancelled;
   run.time_step = stepping.time_step;

@@ -10,8 +10,8 @@ namespace tt = boost::test_tools;
 
 namespace {
 
-Plan plan(const std::vector<double>& instants, double asked, Meet meet = Meet::all) {
-  return plan_steps(instants, {asked, 1, 1}, meet, Books::off);
+Plan plan(const std::vector<double>& instants, double asked, Meet meet = Meet::all, Read read = Read::all) {
+  return plan_steps(instants, {asked, 1, 1}, meet, read, Books::off);
 }
 
 /// A bar of one point that stands at f at its own times: leapfrog's, or USF's.
@@ -56,6 +56,8 @@ BOOST_AUTO_TEST_CASE(samples_stand_around_every_instant) {
   BOOST_TEST(p.stepping.steps == 10);
   BOOST_TEST(p.nearest == (std::vector<long>{1, 3, 4, 10}), tt::per_element());
   BOOST_TEST(p.stepping.sample_after == (std::vector<long>{0, 1, 2, 3, 4, 5, 9, 10, 11}), tt::per_element());
+  const Plan whole = plan({0.2, 3.2, 3.7, 10.0}, 1, Meet::all, Read::whole);
+  BOOST_TEST(whole.stepping.sample_after == (std::vector<long>{0, 1, 3, 4, 10}), tt::per_element());
   const Plan close = plan({4.0, 4.1, 10.0}, 1);  // two on one step
   BOOST_TEST(close.nearest == (std::vector<long>{4, 4, 10}), tt::per_element());
   BOOST_TEST(close.own_steps() == (std::vector<long>{4, 10}), tt::per_element());
