@@ -249,6 +249,7 @@ void measure_limit(const Case& c, const Leaf& leaf, const Plate& plate, const Ti
       Stepping trial;
       trial.time_step = courant * step.unit;
       trial.limit = predicted * step.unit;
+      trial.books = Books::off;
       trial.gains = 1;  // what is asked is whether it grows without end
       trial.steps = gate.steps;
       trial.cancelled = cancelled;

@@ -153,6 +153,7 @@ double find_limit(const Scene& scene, const Leaf& leaf, double predicted, long s
     Stepping trial;
     trial.time_step = courant * cell_time(scene, leaf);
     trial.limit = predicted * cell_time(scene, leaf);
+    trial.books = Books::off;
     trial.gains = 1;  // what is asked is whether it grows without end
     trial.steps = steps;
     trial.cancelled = cancelled;

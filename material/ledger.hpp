@@ -31,7 +31,7 @@ struct Allowed {
 ///
 /// And it watches over the run: a passive scene never holds, and damage has never taken, more than was put in. That is
 /// told from the work, which is added up in every step, and the energies at hand; without books these are asked for now
-/// and then, and what was spent is not known.
+/// and then and at the end, and what was spent is not known.
 class Ledger {
  public:
   /// first_time: of the velocity in the first line [s]; free_mass: of bars that no support holds, else 0 [kg].
@@ -49,9 +49,9 @@ class Ledger {
   bool keeps() const { return books_ != Books::off; }
   /// The energies of this step are asked for: close_line is to be called.
   bool due() const { return due_; }
-  void begin_step(long n) {
-    constexpr long glance = 64;  // less than a per cent of a run, and an instability grows no tenfold in the meantime
-    due_ = keeps() || n % glance == 0;
+  void begin_step(long n, bool last = false) {
+    constexpr long glance = 64;  // not 4 % of a run that keeps no books
+    due_ = keeps() || last || n % glance == 0;
   }
 
   /// f·v⁻ and the total force of loads and supports, before a kick.

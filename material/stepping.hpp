@@ -63,7 +63,7 @@ Result take_steps(Body& body, const Stepping& stepping) {
       record.message = "stopped on request";
       break;
     }
-    ledger.begin_step(n);
+    ledger.begin_step(n, n + 1 == stepping.steps);
     body.step(n, ledger);
     record.steps = n + 1;
     if (!body.trouble().empty()) {

@@ -216,7 +216,8 @@ BOOST_AUTO_TEST_CASE(more_than_was_put_in_is_unstable) {
     BOOST_TEST(books.unstable());
     const std::string words = books.trouble("J");
     BOOST_TEST_CONTEXT(words) {
-      BOOST_TEST(words.starts_with("more energy than was put in: 12.3 J held or spent, 12 J put in at the most; given by the "));
+      BOOST_TEST(words.starts_with(
+          "more energy than was put in: 12.3 J held or spent, 12 J put in at the most; given by the "));
       BOOST_TEST((words.find("the books were not kept") != std::string::npos) == (kept == Books::off));
     }
     if (kept == Books::sums) BOOST_TEST(books.sums().put_in == 12.0, tt::tolerance(1e-8));
@@ -273,6 +274,18 @@ BOOST_AUTO_TEST_CASE(an_unstable_run_is_found_without_books) {
       BOOST_TEST(r.message.ends_with(", at step " + std::to_string(r.steps)));
       BOOST_TEST((r.sums.lines > 0) == (kept == Books::sums));  // the lines up to there are kept
     }
+  }
+}
+
+// And at its end, however short it is.
+BOOST_AUTO_TEST_CASE(a_short_run_is_looked_at_in_the_end) {
+  for (const int method : {fem_method, usf, usl, musl}) {
+    Stepping how = stepping(4e-4, 40);  // Courant number 2
+    how.books = Books::off;
+    const Record r = go(method, scene_of({elastic, false, false, 1}), 50, {0.25, 0.75}, how);
+    BOOST_TEST((r.outcome == Outcome::unstable));
+    BOOST_TEST(r.steps == 40);
+    BOOST_TEST(r.message.starts_with("more energy than was put in: "));
   }
 }
 
