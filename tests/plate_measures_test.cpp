@@ -557,6 +557,18 @@ BOOST_AUTO_TEST_CASE(a_probe_of_the_concentration_reads_the_nearest_node) {
   BOOST_TEST(read_plate_probe(c, {"diffusion", 4, 0.2, {}, {}, ""}, one, s, {}, {}).value == 3.5);  // 7 on an area of ½
 }
 
+// At the time on its label, between two steps.
+BOOST_AUTO_TEST_CASE(a_probe_of_the_platen_reads_its_history) {
+  const Case c = parse_case(sheet, "t.toml");
+  PlateSnapshot s;
+  s.time = 0.25;
+  PlateProbe one;
+  one.reads = "platen";
+  const Leaf leaf{"fem", 4, 0.2, {}, {}, ""};
+  BOOST_TEST(read_plate_probe(c, leaf, one, s, {}, {{0.1, 0.2, 0.3}, {1, 2, 4}}).value == 3, tt::tolerance(1e-12));
+  BOOST_TEST(std::isnan(read_plate_probe(c, leaf, one, s, {}, {}).value));
+}
+
 BOOST_AUTO_TEST_CASE(damage_is_shown_on_the_nodes) {
   Case c = parse_case(cracking, "t.toml");
   const Leaf leaf{"fem", 2, 0.5, {}, {}, ""};  // 2 × 3 cells
