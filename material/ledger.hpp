@@ -51,7 +51,7 @@ class Ledger {
   bool due() const { return due_; }
   void begin_step(long n, bool last = false) {
     constexpr long glance = 64;  // not 4 % of a run that keeps no books
-    due_ = keeps() || last || n % glance == 0;
+    due_ = keeps() || last || !open_ || n % glance == 0;
   }
 
   /// f·v⁻ and the total force of loads and supports, before a kick.
