@@ -20,8 +20,6 @@ namespace {
 using reports::Run;
 using reports::Verdict;
 
-constexpr std::size_t meshes_for_uncertainty = 4;
-
 /// Runs of one method from the coarsest mesh to the finest.
 using Series = std::vector<const Run*>;
 
@@ -93,7 +91,7 @@ Meshes of_values(const std::array<Series, 2>& both, const std::function<double(c
         invalid(run->label() +
                 ": the quantity is not a finite number: the contour does not reach there, or the run has none");
     }
-    if (values[m].size() >= meshes_for_uncertainty)
+    if (values[m].size() >= levels_for_uncertainty)
       uncertainty[m] = discretisation_uncertainty(sizes_of(both[m]), values[m]);
     else
       uncertainty[m].band.assign(values[m].size(), std::numeric_limits<double>::quiet_NaN());
@@ -234,7 +232,7 @@ void judge_probe_settling(const Case& c, const GateSpec& gate, std::map<std::str
 }  // namespace
 
 void judge_agreement(const Case& c, const GateSpec& gate, const std::vector<const Run*>& runs, reports::Gate& result) {
-  const auto both = both_methods(runs, gate.max ? meshes_for_uncertainty : 1);
+  const auto both = both_methods(runs, gate.max ? levels_for_uncertainty : 1);
   result.formula = fmt::format("|{} − {}| of {}", both[0][0]->method, both[1][0]->method, gate.quantity);
   if (gate.max) result.formula += fmt::format(" / √(U² + U²) ≤ {:g}", *gate.max);
   if (!gate.apart.empty()) result.formula += fmt::format(", at most {} of the value", listed(gate.apart));
@@ -266,7 +264,7 @@ void judge_settling(const Case& c, const GateSpec& gate, const std::vector<const
     judge_probe_settling(c, gate, by_method, result);
     return;
   }
-  const auto both = by_method.size() == 2 ? both_methods(runs, meshes_for_uncertainty) : std::array<Series, 2>{};
+  const auto both = by_method.size() == 2 ? both_methods(runs, levels_for_uncertainty) : std::array<Series, 2>{};
   result.formula =
       fmt::format("Sprague–Geers distance of {} between successive meshes{}: each at most {:g} of the one before",
                   gate.quantity, by_method.size() == 2 ? ", and between the methods" : "", *gate.max);

@@ -20,11 +20,11 @@ namespace diptych::cases {
 /// of the one before. Throws Stop where it cannot be judged.
 void judge_agreement(const Case&, const GateSpec&, const std::vector<const reports::Run*>&, reports::Gate&);
 
-/// Judges a gate of kind "settling" on the runs that it speaks of, of one or two methods. "probe.ID": what its values on
-/// gate.judged span is at most gate.max of the one on the finest, for each method and time. Histories of gauges, on four
-/// meshes or more: the
-/// combined Sprague–Geers distance of a gauge's history between successive meshes, and with two methods that between
-/// them on each mesh, is at most gate.max times the one before. Throws Stop where it cannot be judged.
+/// Judges a gate of kind "settling" on the runs that it speaks of, of one or two methods. "probe.ID": what its values
+/// on gate.judged span is at most gate.max of the one on the finest, for each method and time. Histories of gauges, on
+/// four meshes or more: the combined Sprague–Geers distance of a gauge's history between successive meshes, and with
+/// two methods that between them on each mesh, is at most gate.max times the one before. Throws Stop where it cannot be
+/// judged.
 void judge_settling(const Case&, const GateSpec&, const std::vector<const reports::Run*>&, reports::Gate&);
 
 }  // namespace diptych::cases

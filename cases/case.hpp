@@ -134,7 +134,8 @@ struct FigureSpec {
   /// "profiles" of a field at some times, or "motion": positions over time. Of a plate "contours" of both methods and
   /// their difference, "problem": the scene itself, "history" of the platen, "convergence": probes over the cell size,
   /// "rupture": the load of rupture over the cell size, "choices": what each variant does, "agreement": how far the
-  /// methods are apart and how far they may be, "gauges": histories of stress, or "failure": the page on a failure wave.
+  /// methods are apart and how far they may be, "gauges": histories of stress, or "failure": the page on a failure
+  /// wave.
   std::string kind = "profiles";
   std::string field = "stress";
   std::vector<double> times;          ///< subset of the sample times; empty: all
@@ -150,8 +151,8 @@ struct FigureSpec {
   std::optional<Zoom> zoom;                         ///< motion
   double magnify = 1;                               ///< motion: displacements are drawn so many times as large
   std::vector<double> levels;                       ///< contours, choices: of the field
-  std::string over, probe;  ///< rupture: the load that is swept, and what is read
-  std::string variant;      ///< rupture, convergence: of which variant
+  std::string over, probe;                          ///< rupture: the load that is swept, and what is read
+  std::string variant;                              ///< rupture, convergence: of which variant
   std::vector<std::string> probes;                  ///< convergence: a panel each
   std::vector<std::string> gauges;                  ///< gauges: a panel each; empty: all
   std::vector<std::string> variants;                ///< gauges: a panel each, too; empty: the case as it stands

@@ -550,9 +550,10 @@ FigureSpec read_figure(Table& t, const Case& c) {
     if (t.has(key) || axis.size() > 1) return t.need(key, rule);
     return axis.empty() ? std::decay_t<decltype(axis[0])>{} : axis[0];  // empty: the axes' own mistake
   };
-  const bool of_all_meshes = contains({"convergence", "rupture"}, figure.kind);
+  const Names of_all{"convergence", "rupture"};
+  const bool of_all_meshes = contains(of_all, figure.kind);
   Names of_one_mesh = figure_kinds(c);
-  std::erase_if(of_one_mesh, [](const std::string& kind) { return kind == "convergence" || kind == "rupture"; });
+  std::erase_if(of_one_mesh, [&](const std::string& kind) { return contains(of_all, kind); });
   if (of("cells", of_one_mesh)) figure.cells = one_of_axis("cells", number_of_cells(), axes.cells);
   figure.choices = t.get("choices", text());
   figure.methods = t.get("methods", set_of(one_of(methods_of(c))), axes.method);

@@ -31,7 +31,7 @@ double reading(const reports::Run& run, double time, const std::string& id) {
 struct Series {
   std::vector<int> cells;
   std::vector<double> size, value;
-  std::optional<Uncertainty> uncertainty;  ///< from four meshes on
+  std::optional<Uncertainty> uncertainty;  ///< where there are meshes enough
 };
 
 Series series_of(const std::vector<reports::Run>& runs, const FigureSpec& spec, const std::string& method,
@@ -50,7 +50,8 @@ Series series_of(const std::vector<reports::Run>& runs, const FigureSpec& spec, 
     series.size.push_back(run->cell_size);
     series.value.push_back(value);
   }
-  if (series.size.size() >= 4) series.uncertainty = discretisation_uncertainty(series.size, series.value);
+  if (series.size.size() >= levels_for_uncertainty)
+    series.uncertainty = discretisation_uncertainty(series.size, series.value);
   return series;
 }
 
@@ -183,7 +184,8 @@ std::string distance_from_settled(const Case& c, const FigureSpec& spec, const s
   if (finest <= spec.cells) return {};
   const Cells mesh = cells_of(*c.plate, finest);
   return fmt::format(
-      "This mesh is not settled: beside {} × {} cells its radii are off by up to {:.0f} %, its areas by {:.0f} % and its "
+      "This mesh is not settled: beside {} × {} cells its radii are off by up to {:.0f} %, its areas by {:.0f} % and "
+      "its "
       "∫C dA by {:.0f} %",
       mesh.x, mesh.y, 100 * off["radius"], 100 * off["area"], 100 * off["total"]);
 }
@@ -232,8 +234,7 @@ reports::Figure rupture_figure(const Case& c, const FigureSpec& spec, const std:
         size = run->cell_size;
         const double D = law.damage(std::clamp(reading(*run, time, spec.probe), 0.0, cap));
         if (std::isnan(load) && D >= ruptured && !damage.y.empty() && damage.y.back() < ruptured)
-          load = damage.x.back() +
-                 (p / mega - damage.x.back()) * (ruptured - damage.y.back()) / (D - damage.y.back());
+          load = damage.x.back() + (p / mega - damage.x.back()) * (ruptured - damage.y.back()) / (D - damage.y.back());
         damage.x.push_back(p / mega);
         damage.y.push_back(D);
       }
@@ -251,9 +252,9 @@ reports::Figure rupture_figure(const Case& c, const FigureSpec& spec, const std:
     over_size.series.push_back({name_of_method(method), kind_of_method(method), std::move(rupture)});
   }
   if (most > 0) {
-    figure.notes.push_back(fmt::format(
-        "Load of rupture between {:.0f} and {:.0f} MPa over methods and meshes: a spread of {:.1f} %", least, most,
-        100 * (most / least - 1)));
+    figure.notes.push_back(
+        fmt::format("Load of rupture between {:.0f} and {:.0f} MPa over methods and meshes: a spread of {:.1f} %",
+                    least, most, 100 * (most / least - 1)));
     const double margin = std::max(10.0, 0.2 * (most - least));
     over_size.y_range = {least - margin, most + margin};
     over_size.x_range = {0, 1.1 * largest_size};

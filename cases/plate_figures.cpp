@@ -244,9 +244,9 @@ void add_agreement(const Case& c, const FigureSpec& spec, reports::Case& result)
       if (std::isfinite(one.time)) name += fmt::format(", {}", in_ms(one.time));
       const auto part = [&](double value) { return fmt::format("{:.2f}", 100 * value / one.size); };
       const bool passed = std::all_of(gate.checks.begin(), gate.checks.end(), [&](const reports::Check& check) {
-        const bool about = check.what.starts_with(fmt::format("{} cells", one.cells)) &&
-                           (!std::isfinite(one.time) ||
-                            check.what.find(fmt::format("t = {:g} s:", one.time)) != std::string::npos);
+        const bool about =
+            check.what.starts_with(fmt::format("{} cells", one.cells)) &&
+            (!std::isfinite(one.time) || check.what.find(fmt::format("t = {:g} s:", one.time)) != std::string::npos);
         return !about || check.passed;
       });
       table.rows.push_back({name,

@@ -87,8 +87,8 @@ struct PlateProbe {
   std::string id;
   /// Of C_d: "radius" of a contour along an angle, "area" where C_d ≥ level, "largest"; of C: "total", ∫C dA; of the
   /// cells' strains: "acoustic-ratio", the least ratio of the acoustic tensor's determinant to that of the whole solid,
-  /// and "acoustic-angle", the direction of its normal there [degrees]; "platen", its displacement. At a place: a component of a field,
-  /// "displacement-x", "stress-xy", ..., of the point that stands nearest, or "concentration".
+  /// and "acoustic-angle", the direction of its normal there [degrees]; "platen", its displacement. At a place: a
+  /// component of a field, "displacement-x", "stress-xy", ..., of the point that stands nearest, or "concentration".
   std::string reads;
   double x = 0, y = 0;  ///< [m]
   double angle = 0;     ///< from the x axis [degrees]

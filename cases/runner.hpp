@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "cases/case.hpp"
-#include "cases/leaf.hpp"
 #include "cases/instants.hpp"
+#include "cases/leaf.hpp"
 #include "material/record.hpp"
 #include "reports/results.hpp"
 

@@ -183,7 +183,8 @@ Uncertainty discretisation_uncertainty(const std::vector<double>& cell_size, con
   std::vector<double> sorted = cell_size;
   std::sort(sorted.begin(), sorted.end());
   const bool differ = std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
-  if (n < 4 || value.size() != n || !differ || !(sorted.front() > 0) || !std::isfinite(sorted.back()))
+  if (n < levels_for_uncertainty || value.size() != n || !differ || !(sorted.front() > 0) ||
+      !std::isfinite(sorted.back()))
     throw std::invalid_argument("discretisation uncertainty: needs four levels or more, of different cell sizes > 0");
   const auto [least, largest] = std::minmax_element(value.begin(), value.end());
   const double span = *largest - *least, shift = *least;

@@ -46,8 +46,10 @@ struct Uncertainty {
   double of(std::size_t level) const { return band.at(level); }
 };
 
-/// At least four levels with cell sizes that are positive and differ; throws std::invalid_argument otherwise. A value
-/// that is not finite makes every number NaN; values that are all equal make every band 0.
+inline constexpr std::size_t levels_for_uncertainty = 4;
+
+/// At least so many levels with cell sizes that are positive and differ; throws std::invalid_argument otherwise. A
+/// value that is not finite makes every number NaN; values that are all equal make every band 0.
 Uncertainty discretisation_uncertainty(const std::vector<double>& cell_size, const std::vector<double>& value);
 
 }  // namespace diptych::cases

@@ -1038,7 +1038,7 @@ class Body {
   }
   bool has_potential() const {
     if constexpr (failing) return false;
-    if constexpr (damaging) return damage().closure == material::Closure::volumetric;
+    if constexpr (damaging) return damage().has_potential();
     return true;
   }
   double dissipation() {

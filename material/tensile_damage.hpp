@@ -38,6 +38,8 @@ struct TensileDamage {
   bool trace = false;                     ///< reads ε_v as tr ε; false: as tr ε / 3, our choice
 
   double alpha() const { return 16 * beta / 9; }
+  /// Whether the stress at a given C_d is the derivative of an energy.
+  bool has_potential() const { return closure == Closure::volumetric; }
   /// ε_v of a strain in the plane.
   double volumetric(const Tensor& strain) const {
     return (strain.xx + strain.yy) * elastic.trace_factor() / (trace ? 1 : 3);

@@ -160,7 +160,7 @@ class Law {
   /// Whether the stress of a given crack density or dilatancy is the derivative of an energy.
   bool has_potential() const {
     if constexpr (failing) return false;
-    if constexpr (damaging) return material_.closure == material::Closure::volumetric;
+    if constexpr (damaging) return material_.has_potential();
     return true;
   }
 

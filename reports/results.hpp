@@ -144,10 +144,10 @@ struct Gate {
   std::string formula;      ///< what is compared, in words and symbols
   std::string reason;       ///< where the tolerance comes from
   Verdict verdict = Verdict::invalid;
-  std::string message;        ///< why, where not passed
-  std::vector<Check> checks;  ///< never empty for a judged gate
+  std::string message;                     ///< why, where not passed
+  std::vector<Check> checks;               ///< never empty for a judged gate
   std::vector<Agreement> agreements = {};  ///< of kind "agreement"
-  int line = 0;               ///< of its declaration in the case file
+  int line = 0;                            ///< of its declaration in the case file
   /// Least (distance to the nearer edge)/(half width) over the checks: 1 in the middle of the band, 0 on its edge,
   /// < 0 where failed, -infinity for a value that is not a number. A band with one infinite edge is measured by the
   /// other edge's size. NaN without checks. (A bound |value| <= max is the band [-max, max], not [0, max].)

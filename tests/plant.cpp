@@ -346,7 +346,8 @@ int plant(const fs::path& source, const fs::path& folder, const fs::path& out, c
   write(out / "teeth.cmake", entries(defects, out));
   std::string killed;
   for (const Defect& d : defects) {
-    if (d.verdict != "FAIL") continue;  // an oracle that fails its own test, a run that breaks or has too much energy: no gate needed
+    if (d.verdict != "FAIL")
+      continue;  // an oracle that fails its own test, a run that breaks or has too much energy: no gate needed
     for (const std::string& gate : d.gates) killed += gate + "\n";
   }
   write(out / "killed.txt", killed);
