@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "fem/contact.hpp"
-#include "material/stepping.hpp"
+#include "hinge/step/stepping.hpp"
 
 namespace diptych::fem {
 namespace {

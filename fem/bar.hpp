@@ -1,8 +1,8 @@
 // Explicit finite elements on bars: 2-node elements, one Gauss point, lumped mass, central differences.
 #pragma once
 
-#include "material/record.hpp"
-#include "material/scene.hpp"
+#include "hinge/scene/scene.hpp"
+#include "hinge/step/record.hpp"
 
 namespace diptych::fem {
 

@@ -3,8 +3,8 @@
 
 #include <array>
 
-#include "material/plane.hpp"
-#include "material/plate.hpp"
+#include "hinge/material/plane.hpp"
+#include "hinge/scene/plate.hpp"
 
 namespace diptych::fem {
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "material/scene.hpp"
+#include "hinge/scene/scene.hpp"
 
 namespace diptych::fem {
 

@@ -7,8 +7,8 @@
 
 #include "fem/cell.hpp"
 #include "fem/sweep.hpp"
-#include "material/stepping.hpp"
-#include "material/threads.hpp"
+#include "hinge/step/stepping.hpp"
+#include "hinge/step/threads.hpp"
 
 namespace diptych::fem {
 namespace {

@@ -4,10 +4,10 @@
 
 #include <optional>
 
-#include "diffusion/damage_evolution.hpp"
-#include "diffusion/dilatancy.hpp"
-#include "material/plate.hpp"
-#include "material/scene.hpp"
+#include "hinge/diffusion/damage_evolution.hpp"
+#include "hinge/diffusion/dilatancy.hpp"
+#include "hinge/scene/plate.hpp"
+#include "hinge/scene/scene.hpp"
 
 namespace diptych::fem {
 

@@ -5,8 +5,8 @@
 
 #include "fem/cell.hpp"
 #include "fem/plate.hpp"
-#include "material/eigenvalues.hpp"
-#include "material/viscous_step.hpp"
+#include "hinge/step/eigenvalues.hpp"
+#include "hinge/step/viscous_step.hpp"
 
 namespace diptych::fem {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "material/record.hpp"
-#include "material/scene.hpp"
+#include "hinge/scene/scene.hpp"
+#include "hinge/step/record.hpp"
 
 namespace diptych::mpm {
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "material/stepping.hpp"
+#include "hinge/step/stepping.hpp"
 #include "mpm/bar.hpp"
 
 namespace diptych::mpm::bars {

@@ -8,9 +8,9 @@
 #include <tuple>
 #include <vector>
 
-#include "diffusion/damage_evolution.hpp"
-#include "diffusion/dilatancy.hpp"
-#include "material/stepping.hpp"
+#include "hinge/diffusion/damage_evolution.hpp"
+#include "hinge/diffusion/dilatancy.hpp"
+#include "hinge/step/stepping.hpp"
 #include "mpm/plate.hpp"
 #include "mpm/plate_grid.hpp"
 #include "mpm/plate_kernels.hpp"

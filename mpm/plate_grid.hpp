@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "material/plate.hpp"
-#include "material/threads.hpp"
+#include "hinge/scene/plate.hpp"
+#include "hinge/step/threads.hpp"
 
 namespace diptych::mpm {
 

@@ -10,8 +10,8 @@
 #include <variant>
 #include <vector>
 
-#include "diffusion/damage_evolution.hpp"
-#include "material/plate.hpp"
+#include "hinge/diffusion/damage_evolution.hpp"
+#include "hinge/scene/plate.hpp"
 #include "mpm/plate_grid.hpp"
 
 namespace diptych::mpm {

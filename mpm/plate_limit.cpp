@@ -12,8 +12,8 @@
 #include <complex>
 #include <vector>
 
-#include "material/eigenvalues.hpp"
-#include "material/viscous_step.hpp"
+#include "hinge/step/eigenvalues.hpp"
+#include "hinge/step/viscous_step.hpp"
 #include "mpm/plate.hpp"
 
 namespace diptych::mpm {

@@ -3,20 +3,29 @@
 set -uo pipefail
 cd "$1" || exit 1
 broken=0 looked=0
-forbid() { # forbid FOLDER OTHERS: no file of FOLDER includes a header of OTHERS (an alternation)
-  local found files
-  files=$(find "$1" -name '*.[ch]pp' | wc -l)
-  [ "$files" -gt 0 ] || { echo "no sources in $1"; broken=1; }
-  looked=$((looked + files))
-  found=$(grep -nE "#include \"($2)/" "$1"/*.[ch]pp)
-  [ -z "$found" ] || { echo "$found"; broken=1; }
+only() { # only FOLDER OTHERS [EXCEPT]: files of FOLDER, but for EXCEPT, include headers of OTHERS (an alternation) alone
+  local files found
+  files=$(find "$1" -name '*.[ch]pp' | grep -vE "${3:-^$}")
+  [ -n "$files" ] || { echo "no sources in $1"; broken=1; return; }
+  looked=$((looked + $(wc -l <<<"$files")))
+  # shellcheck disable=SC2086
+  found=$(grep -HnE '#include "' $files | grep -vE "#include \"(($2)/|diptych_version.hpp)")
+  [ -z "$found" ] || { echo "$1 may include $2 alone:"; echo "$found"; broken=1; }
 }
-forbid material 'fem|mpm|diffusion|analytic|cases|reports|tests'
-forbid diffusion 'material|fem|mpm|analytic|cases|reports|tests'
-forbid fem 'mpm|analytic|cases|reports|tests'
-forbid mpm 'fem|analytic|cases|reports|tests'
-forbid analytic 'material|diffusion|fem|mpm|cases|reports|tests'
-forbid reports 'material|diffusion|fem|mpm|analytic|cases|tests'
-forbid cases 'tests'
+only hinge/material hinge/material
+only hinge/diffusion hinge/diffusion
+only hinge/scene 'hinge/(material|diffusion|scene|step)'
+only hinge/step 'hinge/(material|diffusion|scene|step)'
+only fem 'hinge|fem'
+only mpm 'hinge|mpm'
+only analytic analytic
+only reports reports
+only runner/input 'hinge|analytic|reports|runner/input'
+only runner/compare 'hinge|analytic|reports|runner/(input|compare)'
+only runner/run 'hinge|analytic|reports|runner/(input|compare|run)' '^runner/run/(runner|plate_runner|measures)[.]'
+only runner/run 'hinge|fem|mpm|analytic|reports|runner/(input|compare|run)'
+only runner/judge 'hinge|analytic|reports|runner/(input|compare|run|judge)'
+only runner/draw 'hinge|analytic|reports|runner/(input|compare|draw)'
+only runner/app 'hinge|analytic|reports|runner'
 echo "$looked files"
 exit "$broken"

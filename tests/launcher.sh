@@ -12,9 +12,9 @@ as_another() {
   if [ "$(id -u)" = 0 ]; then setpriv --reuid=65534 --regid=65534 --clear-groups "$@"; else "$@"; fi
 }
 
-mkdir -p "$work/clone/cases" "$work/bin"
+mkdir -p "$work/clone/runner/app" "$work/bin"
 cp "$source/diptych" "$source/CMakeLists.txt" "$work/clone"
-cp "$source/cases/main.cpp" "$work/clone/cases"
+cp "$source/runner/app/main.cpp" "$work/clone/runner/app"
 
 # A fresh clone: told without installing or building anything.
 for tool in apt-get dpkg-query cmake ninja; do
@@ -40,7 +40,7 @@ chmod +x "$work/clone/build/release/diptych"
 chmod -R a-w "$work/clone/build"
 expect 0 '^ran list bar.energy$' as_another env PATH="$work/bin:$PATH" "$work/clone/diptych" list bar.energy
 expect 14 'tests are built .* may not be written' as_another env PATH="$work/bin:$PATH" "$work/clone/diptych" test
-touch -d '+1 minute' "$work/clone/cases/main.cpp"
+touch -d '+1 minute' "$work/clone/runner/app/main.cpp"
 expect 14 'main.cpp is newer than the program' as_another env PATH="$work/bin:$PATH" "$work/clone/diptych" list
 
 # Tests by parts.

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "material/scene.hpp"
+#include "hinge/scene/scene.hpp"
 
 namespace diptych {
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "material/scene.hpp"
+#include "hinge/scene/scene.hpp"
 
 namespace diptych::tests {
 

@@ -1,0 +1,549 @@
+#include "runner/app/commands.hpp"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <boost/timer/progress_display.hpp>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <set>
+#include <thread>
+
+#include "reports/figure.hpp"
+#include "reports/files.hpp"
+#include "reports/plate_figure.hpp"
+#include "reports/tables.hpp"
+#include "runner/app/catalogue.hpp"
+#include "runner/app/provenance.hpp"
+#include "runner/draw/figures.hpp"
+#include "runner/input/build.hpp"
+#include "runner/input/case_file.hpp"
+#include "runner/input/plate_build.hpp"
+#include "runner/judge/gates.hpp"
+#include "runner/run/runner.hpp"
+
+namespace diptych::runner {
+namespace {
+
+int threads_of(const Options& options) {
+  return options.threads > 0 ? options.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+/// A bar on a terminal, a plain line every quarter of the way elsewhere; on standard error, so results stay clean.
+std::function<void(std::size_t, std::size_t)> progress() {
+  if (isatty(STDERR_FILENO)) {
+    auto bar = std::make_shared<std::unique_ptr<boost::timer::progress_display>>();
+    return [bar](std::size_t done, std::size_t total) {
+      if (!*bar) *bar = std::make_unique<boost::timer::progress_display>(total, std::cerr);
+      **bar += done - (*bar)->count();
+    };
+  }
+  return [](std::size_t done, std::size_t total) {
+    if (done == total || done * 4 / total != (done - 1) * 4 / total) fmt::print(stderr, "{} of {} runs\n", done, total);
+  };
+}
+
+/// Runs, judges every gate that could be judged, and makes the figures.
+enum class Purpose { judge, show };  // what no gate speaks of is run only to be shown
+
+/// The gates as far as they are known while the runs go on. A gate on single numbers that one run fails has failed,
+/// whatever the others say.
+class Failed {
+ public:
+  explicit Failed(const std::vector<Case>& cases) : cases_(cases) {
+    for (const Case& c : cases) gates_.emplace_back(c.gates.size());
+  }
+  void take(std::size_t which, const reports::Run& run) {
+    const Case& c = cases_[which];
+    for (std::size_t g = 0; g < c.gates.size(); ++g) {
+      if (gates_[which][g] || !of_single_numbers(c.gates[g])) continue;
+      reports::Gate gate = judge(c, c.gates[g], {run});
+      if (gate.verdict == reports::Verdict::fail) gates_[which][g] = std::move(gate);
+    }
+  }
+  bool wanted(std::size_t which, const Leaf& leaf) const {
+    const Case& c = cases_[which];
+    for (std::size_t g = 0; g < c.gates.size(); ++g)
+      if (!gates_[which][g] && matches(c.gates[g].where, leaf)) return true;
+    return false;
+  }
+  const std::optional<reports::Gate>& gate(std::size_t which, std::size_t g) const { return gates_[which][g]; }
+
+ private:
+  const std::vector<Case>& cases_;
+  std::vector<std::vector<std::optional<reports::Gate>>> gates_;
+};
+
+std::vector<reports::Case> measure(const std::vector<Case>& cases, const Options& options, Purpose purpose,
+                                   const std::atomic<bool>& cancelled) {
+  const bool judge_only = purpose == Purpose::judge;
+  Running running{threads_of(options), &cancelled, options.books, options.fields, judge_only};
+  running.progress = progress();
+  Failed failed(cases);
+  if (options.fail_fast) {
+    running.cheapest_first = true;
+    running.wanted = [&](std::size_t which, const Leaf& leaf) { return failed.wanted(which, leaf); };
+    running.finished = [&](std::size_t which, const reports::Run& run) { failed.take(which, run); };
+  }
+  auto results = run_cases(cases, running);
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    for (std::size_t g = 0; g < cases[i].gates.size(); ++g) {
+      const GateSpec& gate = cases[i].gates[g];
+      if (const auto& known = failed.gate(i, g))
+        results[i].gates.push_back(*known);
+      else if (!cancelled || all_made(cases[i], gate, results[i].runs))
+        results[i].gates.push_back(judge(cases[i], gate, results[i].runs));
+    }
+    if (!judge_only) add_figures(cases[i], results[i]);
+  }
+  return results;
+}
+
+void print_gate(const reports::Gate& gate) {
+  const auto bits = [](const reports::Check& check) { return check.low == check.high; };
+  std::string margin = gate.message;
+  if (gate.verdict == reports::Verdict::pass) {
+    const bool to_the_bit = std::all_of(gate.checks.begin(), gate.checks.end(), bits);
+    margin = to_the_bit ? "exactly" : fmt::format("{:4.0f} % headroom", 100 * gate.headroom());
+  }
+  fmt::print("{:8} {}/{}  {}  {}\n", to_string(gate.verdict), gate.case_id, gate.id, gate.formula, margin);
+}
+
+/// Prints the verdict's last line and returns the exit status.
+int finish(const std::vector<Case>& cases, const std::vector<reports::Case>& results, int left_out, bool whole,
+           bool stopped) {
+  int declared = 0;
+  for (const Case& c : cases) declared += static_cast<int>(c.gates.size());
+  Outcome outcome = sum_up(results, declared, left_out);
+  if (stopped) {
+    outcome.exit_code = unstable_or_error;
+    outcome.verdict = "ERROR";
+  }
+  const auto differences = differences_from_lock(cases, whole);
+  if (!differences.empty()) {
+    fmt::print("\nThe gates are not those of cases/gates.lock:\n");
+    for (const auto& line : differences) fmt::print("  {}\n", line);
+    fmt::print("If that is meant: ./diptych list --declarations > cases/gates.lock\n");
+    outcome.exit_code = invalid;
+    outcome.verdict = "INVALID";
+  }
+  fmt::print("DIPTYCH-VERDICT {} gates={}/{} passed={} left_out={}\n", outcome.verdict, outcome.judged,
+             outcome.declared, outcome.passed, outcome.left_out);
+  return outcome.exit_code;
+}
+
+/// Takes the gates marked slow away and returns their names.
+std::vector<std::string> leave_out_slow(std::vector<Case>& cases) {
+  std::vector<std::string> left_out;
+  for (Case& c : cases) {
+    std::erase_if(c.gates, [&](const GateSpec& gate) {
+      if (gate.slow) left_out.push_back(c.id + "/" + gate.id);
+      return gate.slow;
+    });
+  }
+  std::erase_if(cases, [](const Case& c) { return c.gates.empty(); });
+  return left_out;
+}
+
+void write_tables(const reports::Case& result, const std::filesystem::path& directory) {
+  reports::write_file(directory / (result.id + ".txt"), reports::text_table(result));
+  reports::write_file(directory / (result.id + ".csv"), reports::csv_table(result));
+  reports::write_file(directory / (result.id + ".tex"), reports::latex_table(result));
+}
+
+void write_ledgers(const reports::Case& result, const std::filesystem::path& directory) {
+  for (const auto& run : result.runs) {
+    std::string name = run.label();
+    std::replace(name.begin(), name.end(), ' ', '_');
+    reports::write_file(directory / (name + ".csv"), reports::ledger_csv(run));
+  }
+  fmt::print("{}\n", directory.string());
+}
+
+/// One collection for each run and kind of points: mesh or particles, and cells.
+void write_fields(const reports::Case& result, const std::filesystem::path& directory) {
+  for (const auto& run : result.runs) {
+    std::string name = run.label();
+    std::replace(name.begin(), name.end(), ' ', '_');
+    std::map<std::string, std::vector<std::pair<double, std::string>>> collections;
+    for (std::size_t s = 0; s < run.samples.size(); ++s) {
+      for (const auto& piece : run.samples[s].files) {
+        const std::string file = fmt::format("{}.{}.{:04}.vtu", name, piece.name, s);
+        reports::write_vtu(directory / file, piece.mesh, piece.arrays);
+        collections[piece.name].emplace_back(run.samples[s].time, file);
+      }
+    }
+    for (const auto& [kind, steps] : collections) {
+      const auto path = directory / fmt::format("{}.{}.pvd", name, kind);
+      reports::write_pvd(path, steps);
+      fmt::print("{}\n", path.string());
+    }
+  }
+}
+
+/// Where results are to go must take them before the runs are paid for.
+void prepare(const std::filesystem::path& out) {
+  std::error_code problem;
+  std::filesystem::create_directories(out, problem);
+  if (problem || access(out.c_str(), W_OK) != 0) {
+    throw InputError(fmt::format("--out: cannot write to {}: {}", out.string(),
+                                 problem ? problem.message() : "permission denied or read-only"));
+  }
+}
+
+/// Draws every figure whose id is wanted (all for an empty list); returns how many pictures could not be drawn.
+int draw_figures(const std::vector<reports::Case>& results, const std::filesystem::path& directory,
+                 const std::set<std::string>& wanted) {
+  int undrawn = 0;
+  bool missing = false;
+  const auto draw_each = [&](const auto& figures) {
+    for (const auto& figure : figures) {
+      const std::string page = figure.id.substr(0, figure.id.rfind('.'));  // a page's pictures go by its name
+      if (!wanted.empty() && !wanted.count(figure.id) && !wanted.count(page)) continue;
+      std::string message;
+      const reports::Drawn drawn = reports::draw(figure, directory, message);
+      if (drawn == reports::Drawn::yes) {
+        fmt::print("{}\n", (directory / (figure.id + ".svg")).string());
+        continue;
+      }
+      missing = missing || drawn == reports::Drawn::gnuplot_missing;
+      undrawn += drawn == reports::Drawn::gnuplot_failed;
+      fmt::print("{}  (script and data only)\n", (directory / (figure.id + ".gp")).string());
+      if (drawn == reports::Drawn::gnuplot_failed) fmt::print(stderr, "gnuplot failed on {}: {}\n", figure.id, message);
+    }
+  };
+  for (const auto& result : results) {
+    draw_each(result.figures);
+    draw_each(result.problem_figures);
+    draw_each(result.plate_figures);
+    for (const auto& [name, page] : result.pages) {
+      if (!wanted.empty() && !wanted.count(name)) continue;
+      const auto path = directory / (name + ".html");
+      reports::write_page(page, path);
+      fmt::print("{}\n", path.string());
+    }
+  }
+  if (missing)
+    fmt::print(stderr, "gnuplot is not installed: no pictures, all else is complete (apt-get install gnuplot-nox)\n");
+  return undrawn;
+}
+
+bool any_cancelled(const std::vector<reports::Case>& results) {
+  std::size_t done = 0, total = 0;
+  for (const auto& result : results) {
+    for (const auto& run : result.runs) {
+      ++total;
+      done += run.status != "cancelled";
+    }
+  }
+  if (done < total) fmt::print(stderr, "stopped on request: {} of {} runs were finished and are kept\n", done, total);
+  return done < total;
+}
+
+bool all_completed(const std::vector<Case>& cases, const std::vector<reports::Case>& results) {
+  bool good = true;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    for (const auto& run : results[i].runs) {
+      const bool meant = cases[i].allow_unstable && run.status == "unstable";
+      if ((run.status == "completed" && run.invalid.empty()) || meant) continue;
+      good = false;
+      fmt::print(stderr, "{}: {}: {} {}\n", run.case_id, run.label(), run.status,
+                 run.invalid.empty() ? run.message : run.invalid);
+    }
+  }
+  return good;
+}
+
+/// "fig3" means fig3 and fig3a, fig3b; "runaway" also runaway-tracked.
+bool names_figure(const std::string& wanted, const std::string& id) {
+  if (id == wanted || id.starts_with(wanted + '-')) return true;
+  return id.size() == wanted.size() + 1 && id.rfind(wanted, 0) == 0 &&
+         std::isalpha(static_cast<unsigned char>(id.back()));
+}
+
+}  // namespace
+
+int run_command(const Options& options, const std::atomic<bool>& cancelled) {
+  const auto cases = select_cases(options.selectors);
+  prepare(options.out);
+  auto results = measure(cases, options, Purpose::show, cancelled);
+  for (auto& result : results) {
+    for (auto& figure : result.figures) figure.id = result.id + "." + figure.id;  // two cases may call theirs the same
+    for (auto& figure : result.problem_figures) figure.id = result.id + "." + figure.id;
+    for (auto& figure : result.plate_figures) figure.id = result.id + "." + figure.id;
+    for (auto& [name, page] : result.pages) {
+      name = result.id + "." + name;
+      const auto rename = [&](std::string& picture) {
+        if (!picture.empty()) picture = result.id + "." + picture;
+      };
+      for (auto& section : page.sections) {
+        rename(section.picture);
+        for (auto& row : section.rows) rename(row.picture);
+      }
+    }
+  }
+  for (const auto& result : results) {
+    fmt::print("{}\n", reports::text_table(result));
+    write_tables(result, options.out / "tables");
+    fmt::print("{}\n", (options.out / "tables" / (result.id + ".{txt,csv,tex}")).string());
+    if (options.fields) write_fields(result, options.out / "fields" / result.id);
+    if (options.books == Books::lines) write_ledgers(result, options.out / "ledgers" / result.id);
+  }
+  const int undrawn = draw_figures(results, options.out / "figures", {});
+  reports::write_file(options.out / "results.jsonl", reports::results_jsonl(results, provenance()));
+  fmt::print("{}\n", (options.out / "results.jsonl").string());
+  const bool stopped = any_cancelled(results);
+  return all_completed(cases, results) && !stopped && undrawn == 0 ? all_passed : unstable_or_error;
+}
+
+int gate_command(const Options& options, const std::atomic<bool>& cancelled) {
+  auto cases = select_cases(options.selectors);
+  const auto left_out = options.quick ? leave_out_slow(cases) : std::vector<std::string>{};
+  const auto results = measure(cases, options, Purpose::judge, cancelled);
+  for (const auto& result : results) {
+    for (const auto& gate : result.gates) print_gate(gate);
+  }
+  if (!options.json.empty()) reports::write_file(options.json, reports::results_jsonl(results, provenance()));
+  if (!options.junit.empty()) reports::write_file(options.junit, reports::junit_xml(results));
+  for (const std::string& gate : left_out) fmt::print("{:8} {}  slow\n", "LEFT OUT", gate);
+  const bool stopped = any_cancelled(results);
+  return finish(cases, results, static_cast<int>(left_out.size()), options.selectors.empty() && !options.quick,
+                stopped);
+}
+
+int explain_command(const Options& options, const std::atomic<bool>& cancelled) {
+  const auto cases = select_cases(options.selectors);
+  const auto results = measure(cases, options, Purpose::judge, cancelled);
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    for (const auto& gate : results[i].gates) {
+      fmt::print(
+          "{}/{}: {}\n  {}\n  case        {}\n  declared    {}:{}\n  kind        {}\n  judged      {}\n  why so      "
+          "{}\n",
+          gate.case_id, gate.id, to_string(gate.verdict), gate.message.empty() ? "every check passed" : gate.message,
+          cases[i].title, cases[i].path.string(), gate.line, gate.kind, gate.formula, gate.reason);
+      for (const auto& check : gate.checks) {
+        fmt::print("  {} {:60} value {:12.6g}{} judged {:12.6g} in [{}, {}]\n", check.passed ? "ok  " : "FAIL",
+                   check.what, check.value,
+                   check.predicted ? fmt::format("  predicted {:12.6g}", *check.predicted) : "", check.judged,
+                   check.low, check.high);
+      }
+      if (gate.verdict == reports::Verdict::pass) fmt::print("  headroom    {:.0f} %\n", 100 * gate.headroom());
+      fmt::print("\n");
+    }
+  }
+  int declared = 0;
+  for (const Case& c : cases) declared += static_cast<int>(c.gates.size());
+  return sum_up(results, declared, 0).exit_code;
+}
+
+int list_command(const Options& options) {
+  const auto cases = select_cases(options.selectors);
+  if (options.declarations) {
+    fmt::print("{}", declarations(cases));
+    return all_passed;
+  }
+  for (const Case& c : cases) {
+    fmt::print("{}  {}{}\n", c.id, c.title,
+               c.paper_figures.empty() ? "" : fmt::format("  [paper: Fig. {}]", listed(c.paper_figures)));
+    for (const GateSpec& gate : c.gates)
+      fmt::print("    {:24} {:10} {}{}\n", gate.id, gate.kind, gate.quantity, gate.slow ? "  (slow)" : "");
+  }
+  return all_passed;
+}
+
+namespace {
+
+/// " for 1 L/c from 0 s": when a load acts.
+std::string timing(const LoadSpec& load) {
+  std::string text;
+  if (load.history == "impulse") text += fmt::format(" for {:g} {}", load.duration.value, load.duration.unit);
+  if (load.history == "ramp") text += fmt::format(" over {:g} {}", load.rise.value, load.rise.unit);
+  if (load.start.value > 0) text += fmt::format(" from {:g} {}", load.start.value, load.start.unit);
+  return text;
+}
+
+void show_runs(const Case& c) {
+  fmt::print("  runs       {}\n", leaves(c).size());
+  for (const Leaf& leaf : leaves(c)) {
+    fmt::print("             {} {} cells, Courant {:g}{}{}\n", leaf.method, leaf.cells, leaf.courant,
+               leaf.particles.empty() ? "" : ", particles at " + particles_label(leaf.particles),
+               parameters_label(leaf).empty() ? "" : ", " + parameters_label(leaf));
+  }
+}
+
+void show_plate(const Case& c) {
+  fmt::print("{}: {}\n  file       {}\n  claim      {}\n  why        {}\n  plate      {}\n", c.id, c.title,
+             c.path.string(), c.claim, c.why, words_of(*c.plate));
+  if (c.plate->material) {
+    fmt::print("  supports  ");
+    for (std::size_t side = 0; side < 4; ++side)
+      fmt::print(" {} {}{}", side_names[side], support_names[static_cast<std::size_t>(c.plate->supports[side])],
+                 side < 3 ? "," : "\n");
+  }
+  for (const SideLoad& load : c.plate->loads)
+    fmt::print("  load       {} {} on the {} side, traction {}{}\n", load.history, load.shear ? "shear" : "normal",
+               side_names[static_cast<std::size_t>(load.side)], load.traction,
+               load.history == "ramp" ? fmt::format(", over {:g} s", load.rise) : "");
+  if (const auto& flyer = c.plate->flyer)
+    fmt::print("  flyer      {:g} m thick at {:g} m/s, a gap of {:g} {}\n", flyer->thickness, flyer->velocity,
+               flyer->gap, flyer->gap_unit);
+  for (const auto& [feature, key] : plate_features(c)) fmt::print("  uses       {}: {}\n", feature, key);
+  for (const auto& [name, value] : c.parameters) fmt::print("  parameter  {} = {:g}\n", name, value);
+  for (const PlateVariant& variant : c.variants) fmt::print("  variant    {}: {}\n", variant.id, variant.says);
+  fmt::print("  exact      {}\n  features   {}\n  sampled    t = {} s\n", c.plate->exact.solution, listed(c.features),
+             listed(c.times));
+  show_runs(c);
+  for (const PlateProbe& probe : c.plate_probes) fmt::print("  probe      {} {}\n", probe.id, probe.reads);
+  for (const GaugeSpec& gauge : c.gauges)
+    fmt::print("  gauge      {}, {:g} m from the impact face\n", gauge.id, gauge.from_face);
+  for (const GateSpec& gate : c.gates) fmt::print("  gate       {:24} {}\n", gate.id, gate.declaration);
+  for (const FigureSpec& figure : c.figures) fmt::print("  figure     {}\n", figure.id);
+}
+
+}  // namespace
+
+int show_command(const Options& options) {
+  for (const Case& c : select_cases(options.selectors)) {
+    if (c.plate) {
+      show_plate(c);
+      continue;
+    }
+    const auto end_text = [](Support s) { return s == Support::fixed ? "fixed" : "free"; };
+    fmt::print("{}: {}\n  file       {}\n  claim      {}\n  why        {}\n", c.id, c.title, c.path.string(), c.claim,
+               c.why);
+    for (std::size_t b = 0; b < c.bars.size(); ++b) {
+      const BarSpec& bar = c.bars[b];
+      fmt::print("  bar        {}, wave speed {:g}{}{}\n", words_of(bar), material::wave_speed(bar.material),
+                 b == 0 ? "" : fmt::format(", after a gap of {:g} {}", bar.gap.value, bar.gap.unit),
+                 bar.velocity.empty() ? "" : ", velocity " + bar.velocity);
+    }
+    fmt::print("  all        {} units, {}–{}, {} displacements\n", c.units, end_text(c.left), end_text(c.right),
+               c.convected ? "finite" : "infinitesimal");
+    for (const auto& [name, value] : c.parameters) fmt::print("  parameter  {} = {:g}\n", name, value);
+    if (c.viscosity) fmt::print("  viscosity  {}\n", words_of(viscosity_of(c)));
+    if (c.contact == Contact::bonded) fmt::print("  contact    bonded (FEM)\n");
+    for (const LoadSpec& load : c.loads) {
+      fmt::print("  load       {}{} on the {} end, {}, through the {}\n", load.history, timing(load),
+                 load.end == End::left ? "left" : "right",
+                 load.history == "expression" ? load.expression : fmt::format("traction {:g}", load.traction),
+                 load.transfer == Transfer::node ? "boundary node" : "boundary layer (eq. 16)");
+    }
+    if (!c.body_force.empty()) fmt::print("  body force {}\n", c.body_force);
+    if (!c.initial_velocity.empty()) fmt::print("  velocity   {} at the start\n", c.initial_velocity);
+    if (!c.initial_stress.empty()) fmt::print("  stress     {} at the start\n", c.initial_stress);
+    if (c.exact.solution == "expressions") {
+      fmt::print("  exact      stress {}; velocity {}; displacement {}\n", c.exact.stress, c.exact.velocity,
+                 c.exact.displacement);
+    }
+    fmt::print("  exact      {}\n  features   {}\n  sampled    t = {} {}{}\n", c.exact.solution, listed(c.features),
+               listed(c.times), c.time_unit, c.from_contact ? " from contact" : "");
+    show_runs(c);
+    for (const Probe& probe : c.probes) {
+      fmt::print("  probe      {} {} at {:g} {}\n", probe.id, probe.field, probe.at.value, probe.at.unit);
+    }
+    for (const GateSpec& gate : c.gates) fmt::print("  gate       {:24} {}\n", gate.id, gate.declaration);
+    for (const FigureSpec& figure : c.figures) fmt::print("  figure     {}\n", figure.id);
+  }
+  return all_passed;
+}
+
+int paper_command(const Options& options, const std::atomic<bool>& cancelled) {
+  auto cases = all_cases();
+  std::set<std::string> known, wanted;
+  for (const Case& c : cases) {
+    for (const FigureSpec& f : c.figures) known.insert(f.id);
+  }
+  for (const std::string& name : options.selectors) {
+    const std::size_t before = wanted.size();
+    for (const std::string& id : known) {
+      if (names_figure(name, id)) wanted.insert(id);
+    }
+    if (wanted.size() == before) {
+      throw InputError(fmt::format("no figure '{}'; there are: {}", name, listed(known)));
+    }
+  }
+  if (options.selectors.empty()) wanted = known;
+  for (const Case& c : cases) {  // a page and the pictures on it go together
+    for (const FigureSpec& f : c.figures) {
+      const auto asked = [&](const std::string& id) { return wanted.count(id) > 0; };
+      if (!asked(f.id) && std::none_of(f.pictures.begin(), f.pictures.end(), asked)) continue;
+      if (f.pictures.empty()) continue;
+      wanted.insert(f.id);
+      wanted.insert(f.pictures.begin(), f.pictures.end());
+    }
+  }
+  std::erase_if(cases, [&](const Case& c) {
+    return std::none_of(c.figures.begin(), c.figures.end(),
+                        [&](const FigureSpec& f) { return wanted.count(f.id) > 0; });
+  });
+  const auto out = options.out / "paper";
+  prepare(out);
+  const auto results = measure(cases, options, Purpose::show, cancelled);
+  const bool stopped = any_cancelled(results);
+  for (const auto& result : results) write_tables(result, out / "tables");
+  const int undrawn = draw_figures(results, out / "figures", wanted);
+  for (const auto& result : results) {
+    for (const char* ending : {".txt", ".csv", ".tex"})
+      fmt::print("{}\n", (out / "tables" / (result.id + ending)).string());
+  }
+  reports::write_file(out / "results.jsonl", reports::results_jsonl(results, provenance()));
+  fmt::print("{}\n", (out / "results.jsonl").string());
+  for (const auto& result : results) {
+    for (const auto& gate : result.gates) print_gate(gate);
+  }
+  const int status = finish(cases, results, 0, false, stopped);
+  if (status != all_passed) return status;
+  return stopped || undrawn > 0 ? unstable_or_error : all_passed;
+}
+
+int test_command(const Options& options) {
+  const std::vector<std::string> parts{"unit", "gates", "teeth", "cli"};
+  std::vector<std::string> chosen = options.selectors.empty() ? parts : options.selectors;
+  for (const std::string& part : chosen) {
+    if (contains(parts, part)) continue;
+    const std::string hint = suggestion(part, parts);
+    throw InputError(fmt::format("no part of the tests is called '{}'; there are {}{}{}", part, listed(parts),
+                                 hint.empty() ? "" : "; ", hint));
+  }
+  if (options.quick) {
+    std::erase(chosen, "teeth");
+    std::replace(chosen.begin(), chosen.end(), std::string("gates"), std::string("quick"));
+    if (chosen.empty()) throw InputError("test teeth --quick: planted defects are what --quick leaves out");
+  }
+  const auto has = [&](const char* part) { return contains(chosen, part); };
+  if (options.targets) {
+    fmt::print("{}\n", has("unit") && has("teeth") ? "unit_tests planted"
+                       : has("unit")               ? "unit_tests"
+                       : has("teeth")              ? "planted"
+                                                   : "");
+    return all_passed;
+  }
+  if (options.quick) fmt::print("LEFT OUT  planted defects, and the gates that are marked slow\n");
+  std::vector<std::string> words{"ctest",
+                                 "--test-dir",
+                                 build_directory().string(),
+                                 "--output-on-failure",
+                                 "-L",
+                                 "^(" + listed(chosen, "|") + ")$",
+                                 "--no-tests=error",
+                                 "-j",
+                                 std::to_string(threads_of(options))};
+  if (!options.pattern.empty()) words.insert(words.end(), {"-R", options.pattern});
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  std::fflush(stdout);
+  execvp("ctest", arguments.data());
+  throw InputError("ctest could not be started; ./diptych test installs and builds what it needs");
+}
+
+std::string version_text() {
+  const auto p = provenance();
+  return fmt::format("diptych {} ({}{}), {}, flags{}, {}", p.version, p.commit, p.dirty ? ", changed" : "", p.compiler,
+                     p.flags, p.os);
+}
+
+}  // namespace diptych::runner

@@ -1,0 +1,36 @@
+// What the command line does, once it is read. Each command returns the process's exit status.
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "hinge/scene/scene.hpp"
+
+namespace diptych::runner {
+
+struct Options {
+  std::vector<std::string> selectors;
+  std::filesystem::path out = "out";
+  std::filesystem::path json, junit;
+  int threads = 0;  ///< 0: all there are
+  bool quick = false;
+  bool fail_fast = false;  ///< gate: no further runs for a gate that has failed
+  bool declarations = false;
+  bool fields = false;       ///< run: also write the fields of plates at the sample times
+  Books books = Books::off;  ///< kept of every run, beside what gates ask for
+  std::string pattern;       ///< test: only the tests whose names it fits
+  bool targets = false;      ///< test: only name what must be built for them
+};
+
+int run_command(const Options&, const std::atomic<bool>& cancelled);
+int gate_command(const Options&, const std::atomic<bool>& cancelled);
+int explain_command(const Options&, const std::atomic<bool>& cancelled);
+int list_command(const Options&);
+int show_command(const Options&);
+int paper_command(const Options&, const std::atomic<bool>& cancelled);
+int test_command(const Options&);
+std::string version_text();
+
+}  // namespace diptych::runner

@@ -1,0 +1,128 @@
+// The command line: CLI11 reads it, commands.cpp does it.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "runner/app/commands.hpp"
+#include "runner/input/case_file.hpp"
+#include "runner/judge/gates.hpp"
+
+namespace {
+
+std::atomic<bool> cancelled{false};
+
+// The first Ctrl-C lets the runs at work stop between two steps and keeps what is finished; the second kills.
+void on_signal(int number) {
+  cancelled = true;
+  std::signal(number, SIG_DFL);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace diptych::runner;
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+
+  CLI::App app{"Diptych: FEM and MPM side by side, judged against exact solutions and against each other"};
+  app.name("diptych");
+  app.require_subcommand(1);
+  app.set_version_flag("--version", version_text());
+  Options options;
+  int status = usage;
+
+  const auto add_threads = [&](CLI::App* command) {
+    command->add_option("-j,--jobs", options.threads, "threads; the results do not depend on it")
+        ->check(CLI::Range(1, 1024));
+  };
+  const auto add_out = [&](CLI::App* command) {
+    command->add_option("--out", options.out, "directory for results")->capture_default_str();
+  };
+  const auto add_cases = [&](CLI::App* command, bool required) {
+    auto* option =
+        command->add_option("CASE", options.selectors, "case file, id, or pattern over ids; CASE/GATE for one gate");
+    if (required) option->required();
+  };
+
+  auto* paper = app.add_subcommand("paper", "write the paper's figures, their data and tables, and judge their cases");
+  paper->add_option("FIGURE", options.selectors, "fig1, fig2, fig3, ...; all without one");
+  add_out(paper);
+  add_threads(paper);
+  paper->callback([&] { status = paper_command(options, cancelled); });
+
+  auto* test = app.add_subcommand("test", "unit tests, gates and planted defects: all that CI runs");
+  test->add_option("PART", options.selectors, "unit, gates, teeth (the planted defects), cli; all without one");
+  test->add_option("-R", options.pattern, "only the tests whose names this regular expression fits");
+  test->add_flag("--quick", options.quick, "leave out planted defects and slow gates");
+  test->add_flag("--targets", options.targets)->group("");  // for the launcher
+  add_threads(test);
+  test->callback([&] { status = test_command(options); });
+
+  auto* run = app.add_subcommand("run", "run cases and print convergence tables");
+  add_cases(run, true);
+  add_out(run);
+  bool ledger = false;
+  run->add_flag("--ledger", ledger, "also write every step's energies, work, loss and momentum (CSV)");
+  run->add_flag("--fields", options.fields,
+                "also write plates' fields at the sample times (VTU and PVD, for ParaView)");
+  add_threads(run);
+  run->callback([&] {
+    options.books = ledger ? diptych::Books::lines : diptych::Books::sums;  // its tables show them
+    status = run_command(options, cancelled);
+  });
+
+  auto* gate = app.add_subcommand("gate", "run and judge; 0 only if every declared gate was judged and passed");
+  add_cases(gate, false);
+  gate->add_flag("--quick", options.quick, "leave out the gates marked slow, and say which");
+  gate->add_flag("--fail-fast", options.fail_fast, "make no further runs for a gate that has failed");
+  gate->add_option("--json", options.json, "also write results to this file (JSON lines)");
+  gate->add_option("--junit", options.junit, "also write verdicts to this file (JUnit XML)");
+  add_threads(gate);
+  gate->callback([&] { status = gate_command(options, cancelled); });
+
+  auto* explain = app.add_subcommand("explain", "formula, numbers, prediction and margin of a gate");
+  explain->add_option("GATE", options.selectors, "CASE/GATE")->required();
+  add_threads(explain);
+  explain->callback([&] { status = explain_command(options, cancelled); });
+
+  auto* list = app.add_subcommand("list", "cases and their gates");
+  add_cases(list, false);
+  list->add_flag("--declarations", options.declarations, "every gate with its tolerance, as in cases/gates.lock");
+  list->callback([&] { status = list_command(options); });
+
+  auto* show = app.add_subcommand("show", "a case's scene, runs and gates");
+  add_cases(show, true);
+  show->callback([&] { status = show_command(options); });
+
+  // CLI11 would only say that some command is needed.
+  std::vector<std::string> commands;
+  for (const CLI::App* command : app.get_subcommands({})) commands.push_back(command->get_name());
+  if (argc > 1 && argv[1][0] != '-' && std::find(commands.begin(), commands.end(), argv[1]) == commands.end()) {
+    const std::string near = nearest(argv[1], commands);
+    std::fprintf(stderr, "no command '%s'%s; 'diptych --help' names them\n", argv[1],
+                 near.empty() ? "" : (" (did you mean '" + near + "'?)").c_str());
+    return usage;
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    status = app.exit(error) == 0 ? all_passed : usage;
+  } catch (const InputError& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return usage;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "diptych: %s\n", error.what());
+    return unstable_or_error;
+  }
+  // A verdict that could not be written was not given.
+  if (std::fflush(stdout) != 0 || std::ferror(stdout)) {
+    std::perror("diptych: standard output");
+    return unstable_or_error;
+  }
+  return status;
+}

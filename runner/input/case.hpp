@@ -1,0 +1,212 @@
+// A case file as data: one scene, an exact solution where there is one, the axes to sweep, and the gates.
+// cases/README.md is the schema for people; runner/input/case_file.cpp is the schema for the program.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "hinge/scene/scene.hpp"
+#include "runner/input/plate_spec.hpp"
+
+namespace diptych::runner {
+
+/// A length or a time as written: value and unit. Times: "s" or "L/c". Lengths: "m", "L" or "cells".
+struct Measured {
+  double value = 0;
+  std::string unit;
+};
+
+/// One bar of a row.
+struct BarSpec {
+  double length = 0;
+  Measured gap{0, "m"};  ///< to the bar before it, ≥ 0; none for the first
+  std::string velocity;  ///< uniform at the start, an expression of parameters; empty: none
+  material::Material material;
+};
+
+struct LoadSpec {
+  End end = End::right;
+  std::string history;     ///< "step", "ramp", "impulse" or "expression"
+  double traction = 0;     ///< amplitude, tension positive (not for "expression")
+  Measured start{0, "s"};  ///< when it begins, ≥ 0
+  Measured rise;           ///< ramp: > 0
+  Measured duration;       ///< impulse: > 0
+  std::string expression;  ///< of t (and parameters), for "expression"
+  Transfer transfer = Transfer::node;
+  Measured layer_thickness;  ///< boundary layer: > 0, unit "cells", "m" or "L"
+};
+
+/// Artificial viscosity whose constants may be expressions of parameters.
+struct ViscositySpec {
+  material::Viscosity form;  ///< all but the constants
+  std::string c1 = "0", c2 = "0";
+};
+
+struct ExactSpec {
+  /// "bar-wave" (steps, ramps and impulses on the ends, from rest), "standing-mode", "impact" (bars that fly, strike
+  /// and yield), "plastic-impact" (two equal bars without hardening), "expressions" or "none".
+  std::string solution = "none";
+  int mode = 1;                                ///< standing-mode
+  double amplitude = 0;                        ///< standing-mode [length]
+  std::string stress, velocity, displacement;  ///< expressions of x and t; an empty one is not compared
+};
+
+/// Names of [parameters] with the values that a run gives them.
+using Parameters = std::map<std::string, double>;
+
+/// Values of the swept axes; every combination is a run (FEM ignores `particles`: one run for all of them).
+struct Axes {
+  std::vector<std::string> method;                        ///< "fem", "mpm-usf", "mpm-usl", "mpm-musl"
+  std::vector<int> cells;                                 ///< ≥ 1
+  std::vector<double> courant;                            ///< > 0
+  std::vector<std::vector<double>> particles{{0.5}};      ///< natural coordinates ξ in [0, 1], ascending, at least one
+  std::map<std::string, std::vector<double>> parameters;  ///< swept ones of [parameters]
+  std::vector<std::string> variant{""};                   ///< of a plate; "" is the case as it stands
+};
+
+/// Restricts a gate to some values of the axes; an empty list is no restriction.
+struct Where {
+  std::vector<std::string> method;
+  std::vector<int> cells;
+  std::vector<double> courant;
+  std::vector<std::vector<double>> particles;
+  std::map<std::string, std::vector<double>> parameters;
+  std::vector<std::string> variant;
+};
+
+struct Probe {
+  std::string id;
+  std::string field;  ///< "stress", "velocity", "displacement"
+  Measured at;        ///< reference coordinate, unit "m", "L" or "cells" counted from the left end
+};
+
+struct GateSpec {
+  std::string id;        ///< unique in the case
+  std::string kind;      ///< "exact", "constant", "order", "invariant", "limit", "agreement", "settling"
+  std::string quantity;  ///< see cases/README.md
+  std::string reason;    ///< why this tolerance
+  Where where;
+  std::vector<double> times;  ///< subset of the sample times; empty: all
+  std::optional<double> max;  ///< exact, invariant: |value| ≤ max (exact: in units of the field's scale)
+  std::optional<std::array<double, 2>> ratio;  ///< constant, limit: measured / predicted within, inclusive
+  std::string predict;                         ///< constant, limit: name of the theory
+  std::optional<double> expect;                ///< order: must agree with theory where there is one
+  std::optional<std::array<double, 2>> band;   ///< order: allowed slope, inclusive
+  int levels_min = 4;                          ///< order: least number of meshes (or time steps)
+  bool over_time_step = false;                 ///< order: of the time step on each mesh; else of the mesh
+  std::string outcome;                         ///< limit: "unstable" where the runs must be detected as unstable
+  long steps = 2000;                           ///< limit: steps of each trial of the bisection
+  std::vector<int> judged;                     ///< agreement, settling of probes: meshes that the gate is about
+  double level = 0;                            ///< agreement of contours: of C_d
+  bool shrinks = true;                         ///< agreement: the difference must do so from coarse to fine
+  std::vector<double> apart;  ///< agreement: most that the methods differ by on each of `judged`, of the value; or none
+  bool slow = false;          ///< left out by --quick, and then reported as left out
+  int line = 0;               ///< of its declaration
+  std::string declaration;    ///< its own keys and values in one canonical line, for gates.lock
+};
+
+/// A published range of speeds of failure fronts, with the delay after which they set off: a time window at each gauge.
+struct SpeedBand {
+  std::string label;
+  std::array<double, 2> speed{1, 1};  ///< [m/s]
+  std::array<double, 2> delay{0, 0};  ///< [s]
+};
+
+/// A table of a page on a failure wave: what some variants do.
+struct PageSection {
+  std::string heading, says;
+  std::vector<std::string> variants;  ///< "" is the case as it stands
+};
+
+/// A part of a motion figure, magnified.
+struct Zoom {
+  std::array<double, 2> x, t;  ///< [case units], [time unit of the case]
+};
+
+struct FigureSpec {
+  std::string id;     ///< "fig1"
+  std::string title;  ///< empty: the case's
+  /// "profiles" of a field at some times, or "motion": positions over time. Of a plate "contours" of both methods and
+  /// their difference, "problem": the scene itself, "history" of the platen, "convergence": probes over the cell size,
+  /// "rupture": the load of rupture over the cell size, "choices": what each variant does, "agreement": how far the
+  /// methods are apart and how far they may be, "gauges": histories of stress, or "failure": the page on a failure
+  /// wave.
+  std::string kind = "profiles";
+  std::string field = "stress";
+  std::vector<double> times;          ///< subset of the sample times; empty: all
+  std::vector<std::string> captions;  ///< one per time: what to see
+  int cells = 0;                      ///< which runs to draw
+  double courant = 0;
+  std::map<std::string, double> courants;  ///< of methods that are drawn at another Courant number
+  std::vector<std::string> methods;        ///< drawn ones
+  std::string choices;                     ///< parameters that the paper leaves open, in words
+  std::vector<double> particles{0.5};
+  Parameters parameters;                            ///< of the runs to draw, where they are swept
+  std::optional<std::array<double, 2>> range;       ///< of the field's axis
+  std::optional<Zoom> zoom;                         ///< motion
+  double magnify = 1;                               ///< motion: displacements are drawn so many times as large
+  std::vector<double> levels;                       ///< contours, choices: of the field
+  std::string over, probe;                          ///< rupture: the load that is swept, and what is read
+  std::string variant;                              ///< rupture, convergence: of which variant
+  std::vector<std::string> probes;                  ///< convergence: a panel each
+  std::vector<std::string> gauges;                  ///< gauges: a panel each; empty: all
+  std::vector<std::string> variants;                ///< gauges: a panel each, too; empty: the case as it stands
+  std::vector<std::string> components;              ///< gauges: "longitudinal", "lateral"
+  std::vector<SpeedBand> bands;                     ///< gauges
+  std::optional<std::array<double, 2>> time_range;  ///< gauges [s]
+  std::vector<PageSection> sections;                ///< failure
+  std::vector<std::string> pictures;                ///< failure: figures of the case to show
+
+  double courant_of(const std::string& method) const {
+    const auto own = courants.find(method);
+    return own == courants.end() ? courant : own->second;
+  }
+};
+
+struct Case {
+  Case();  // compiled once, in case.cpp, where each source that copies a case would compile them anew
+  Case(const Case&);
+  Case(Case&&) noexcept;
+  Case& operator=(const Case&);
+  Case& operator=(Case&&) noexcept;
+  ~Case();
+
+  std::filesystem::path path;
+  std::string id, title, claim, why;
+  std::vector<std::string> paper_figures;               ///< "1", "3a"
+  std::string units;                                    ///< "SI" or "paper"
+  std::vector<BarSpec> bars = std::vector<BarSpec>(1);  ///< left to right
+  Support left = Support::free, right = Support::free;
+  bool convected = false;
+  std::optional<PlateSpec> plate;  ///< then `bars`, their ends, loads and exact solution mean nothing
+  std::vector<PlateVariant> variants;
+  std::vector<PlateProbe> plate_probes;
+  std::vector<GaugeSpec> gauges;
+  Contact contact = Contact::node_to_node;
+  std::optional<ViscositySpec> viscosity;
+  std::vector<LoadSpec> loads;
+  std::string body_force, initial_velocity, initial_stress;  ///< expressions, empty: none
+  Parameters parameters;                                     ///< names for expressions, besides L, E, rho, c and pi
+  std::vector<std::string> features;                         ///< declared, sorted
+  ExactSpec exact;
+  std::vector<Axes> axes;     ///< blocks; the runs are the union of their products
+  std::string time_unit;      ///< "s" or "L/c"
+  bool from_contact = false;  ///< times count from when the first two bars would meet in free flight
+  std::vector<double> times;  ///< ascending, > 0
+  std::vector<Probe> probes;
+  std::string scene;  ///< all keys but those of gates, figures and prose in one canonical line, for gates.lock
+  std::vector<GateSpec> gates;
+  std::vector<FigureSpec> figures;
+  bool allow_unstable = false;
+  bool ledger = true;
+
+  /// The bar whose length and material stand for L, E, rho and c.
+  const BarSpec& first() const { return bars.front(); }
+};
+
+}  // namespace diptych::runner

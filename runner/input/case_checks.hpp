@@ -1,0 +1,64 @@
+// What no single value of a case file tells: whether scene, axes, solution, expressions and gates go together. Each
+// check notes its mistakes at the place given, and passes over what is empty because it has been reported already.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "runner/input/case.hpp"
+#include "runner/input/leaf.hpp"
+#include "runner/input/toml_table.hpp"
+
+namespace diptych::runner {
+
+inline const Names methods{"fem", "mpm-usf", "mpm-usl", "mpm-musl"};
+inline const Names diffusion_methods{"diffusion"};
+inline const Names fields{"stress", "velocity", "displacement"};
+/// What a run with several bars or plasticity tells beside its fields, each with what the exact solution says of it.
+inline const Names outcomes{"contact.begin",    "contact.early",       "contact.end",
+                            "contact.duration", "contact.restitution", "plastic.work"};
+inline const Names invariants{"energy.drift",  "energy.lost",    "energy.closure",    "energy.given-back",
+                              "energy.excess", "momentum.drift", "bits.power-of-two", "bits.mirror",
+                              "bits.repeat",   "bits.alone",     "bits.inviscid",     "cross.fem-on-half-the-cells"};
+
+/// Methods that can take the case's scene.
+const Names& methods_of(const Case&);
+/// Ids of a plate's variants, and "" for the case as it stands.
+Names variants_of(const Case&);
+/// Kinds of figures of the case's scene; the first is the usual one.
+Names figure_kinds(const Case&);
+/// What a `constant` gate may be measured against.
+Names theories(const Case&);
+/// Quantities that a gate of this kind may judge in this case.
+Names quantities_of(const std::string& kind, const Case&);
+/// The values of all blocks of axes together; none where the axes hold a mistake.
+Axes all_axes(const Case&);
+/// The length of the first bar in "m", "L" or "cells" of the coarsest grid; 0 where it is not known.
+double bar_in(const std::string& unit, const Case&);
+/// The runs that a gate speaks of.
+std::vector<Leaf> runs_of(const GateSpec&, const Case&);
+/// Each of them greater than the one before.
+bool ascending(const std::vector<double>&);
+
+/// Compiles a formula of constants; it must be finite for all values of the parameters that runs have.
+bool check_constant(const Place&, const std::string& formula, const Case&);
+/// A constant that is not negative for any values of the parameters that runs have.
+void check_not_negative(const Place&, const std::string& formula, const Case&);
+/// Bars that fit one grid in every run, and velocities beside [initial].
+void check_bars(const Place& bar, const Case&);
+void check_in_some_bar(const Place&, const Measured& at, const Case&);
+/// Times from contact need bars that close in, in every run, and must lie after the start.
+void check_contact(const Place& from, const Case&);
+void check_times(const Place& at, const Case&);
+/// Compiles a formula of `variables` ("x", "t") and tries it at x in {0, L/2, L} and t in {0, the sample times}.
+void check_expression(const Place&, const std::string& text, const Names& variables, const Case&);
+void check_features(const Place&, const Case&);
+void check_steps(const Place& courant, const Axes&, const Case&);
+void check_methods(const Place& method, const Axes&, const Case&);
+void check_solution(const Place& solution, const Case&);
+/// Each value that `where` names must be met by some run of the gate, or it would be judged on less than it says.
+void check_where(const Place& where, const GateSpec&, const Case&);
+void check_gate(Table&, const GateSpec&, const Case&);
+void check_gates(const Place&, const Case&);
+
+}  // namespace diptych::runner

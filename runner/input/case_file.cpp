@@ -1,0 +1,80 @@
+// A case file from its first table to its last: what bars and plates have of their own is read in bar_file.cpp and
+// plate_file.cpp.
+#include "runner/input/case_file.hpp"
+
+#include <cerrno>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+
+#include "runner/input/case_tables.hpp"
+#include "runner/input/toml_table.hpp"
+
+namespace diptych::runner {
+namespace {
+
+void read_judgement(Table& file, Case& c) {
+  file.maybe_table("run", [&](Table& t) {
+    c.allow_unstable = t.get("allow_unstable", flag(), false);
+    c.ledger = t.get("ledger", flag(), true);
+  });
+  c.gates = read_each<GateSpec>(file, "gate", c, read_gate);
+  c.figures = read_each<FigureSpec>(file, "figure", c, read_figure);
+  Names drawn;
+  for (const FigureSpec& figure : c.figures)
+    if (figure.kind == "gauges") drawn.push_back(figure.id);
+  for (const FigureSpec& figure : c.figures)
+    for (const std::string& picture : figure.pictures)
+      if (!contains(drawn, picture))
+        file.place("figure").say("found " + words(picture) + " among the pictures of " + words(figure.id) +
+                                 "; allowed: figures of kind gauges of this case, " + joined(drawn));
+
+  if (c.gates.empty())
+    file.place("gate").say("missing; a case with no gate is an error; allowed: at least one [[gate]]");
+  check_gates(file.place("gate"), c);
+}
+
+Case read_file(Table& file) {
+  Case c;
+  file.need("schema", whole(1, 1));
+  c.scene = file.declaration({"schema", "id", "title", "claim", "why", "paper", "gate", "figure"});
+  c.id = file.need("id", id());
+  c.title = file.need("title", text());
+  c.claim = file.need("claim", one_of({"code-verification", "solution-verification", "cross-code", "regression",
+                                       "robustness", "performance"}));
+  c.why = file.need("why", text());
+  c.units = file.need("units", one_of({"SI", "paper"}));
+  file.maybe_table("paper", [&](Table& t) { c.paper_figures = t.need("figures", set_of(text())); });
+  if (file.has("plate"))
+    read_plate_case(file, c);
+  else
+    read_bar_case(file, c);
+  read_judgement(file, c);
+  return c;
+}
+
+}  // namespace
+
+Case parse_case(const std::string& text, const std::filesystem::path& name) {
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos)
+    throw InputError(name.string() + ":1:1: found an empty file; allowed: a case, see cases/README.md");
+  Case c;
+  read_toml(text, name.string(), [&](Table& file) { c = read_file(file); });
+  c.path = name;
+  return c;
+}
+
+Case read_case(const std::filesystem::path& path) {
+  const auto fail = [&](const std::string& reason) { throw InputError(path.string() + ": cannot be read: " + reason); };
+  std::error_code status;
+  if (std::filesystem::is_directory(path, status)) fail("it is a directory; allowed: a case file (*.toml)");
+  errno = 0;
+  std::ifstream in(path, std::ios::binary);
+  if (!in) fail(std::generic_category().message(errno));
+  std::ostringstream text;
+  text << in.rdbuf();
+  if (in.bad()) fail(std::generic_category().message(errno));
+  return parse_case(text.str(), path);
+}
+
+}  // namespace diptych::runner

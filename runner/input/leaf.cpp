@@ -1,0 +1,91 @@
+#include "runner/input/leaf.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "runner/input/messages.hpp"
+
+namespace diptych::runner {
+namespace {
+
+template <class T>
+bool allowed(const std::vector<T>& list, const T& value) {
+  return list.empty() || std::find(list.begin(), list.end(), value) != list.end();
+}
+
+/// Every combination of one value for each name; the last name varies fastest.
+std::vector<Parameters> combinations(const std::map<std::string, std::vector<double>>& axes) {
+  std::vector<Parameters> all{{}};
+  for (const auto& [name, values] : axes) {
+    std::vector<Parameters> longer;
+    for (const Parameters& one : all) {
+      for (const double value : values) {
+        longer.push_back(one);
+        longer.back()[name] = value;
+      }
+    }
+    all = std::move(longer);
+  }
+  return all;
+}
+
+bool has_particles(const std::string& method) { return method.starts_with("mpm"); }
+
+}  // namespace
+
+std::vector<Leaf> leaves(const Case& c) {
+  std::vector<Leaf> all;
+  const auto add = [&](Leaf leaf) {
+    if (std::find(all.begin(), all.end(), leaf) == all.end()) all.push_back(std::move(leaf));
+  };
+  for (const Axes& block : c.axes) {
+    for (const auto& method : block.method) {
+      for (const auto& particles : block.particles) {
+        for (const double courant : block.courant) {
+          for (const Parameters& parameters : combinations(block.parameters)) {
+            for (const std::string& variant : block.variant) {
+              for (const int cells : block.cells)
+                add({method, cells, courant, has_particles(method) ? particles : std::vector<double>{}, parameters,
+                     variant});
+            }
+          }
+        }
+      }
+    }
+  }
+  return all;
+}
+
+bool matches(const Where& where, const Leaf& leaf) {
+  for (const auto& [name, values] : where.parameters) {
+    const auto own = leaf.parameters.find(name);
+    if (own == leaf.parameters.end() || !allowed(values, own->second)) return false;
+  }
+  return allowed(where.method, leaf.method) && allowed(where.cells, leaf.cells) &&
+         allowed(where.courant, leaf.courant) && allowed(where.variant, leaf.variant) &&
+         (!has_particles(leaf.method) || allowed(where.particles, leaf.particles));
+}
+
+Case with_parameters(Case c, const Leaf& leaf) {
+  for (const auto& [name, value] : leaf.parameters) c.parameters[name] = value;
+  for (const PlateVariant& variant : c.variants)
+    if (variant.id == leaf.variant) c.plate = variant.plate;
+  if (c.plate && c.plate->rows > 0) c.plate->height = c.plate->rows * (c.plate->width / leaf.cells);
+  return c;
+}
+
+std::string parameters_label(const Parameters& parameters) {
+  std::string label;
+  for (const auto& [name, value] : parameters) label += fmt::format("{}{}={}", label.empty() ? "" : " ", name, value);
+  return label;
+}
+
+std::string parameters_label(const Leaf& leaf) {
+  const std::string parameters = parameters_label(leaf.parameters);
+  return leaf.variant + (leaf.variant.empty() || parameters.empty() ? "" : " ") + parameters;
+}
+
+std::string particles_label(const std::vector<double>& positions) { return listed(positions, " "); }
+
+}  // namespace diptych::runner

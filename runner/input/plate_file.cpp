@@ -1,0 +1,695 @@
+// The schema of a plate's tables as the program reads it, top to bottom as in cases/README.md.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "runner/input/case_checks.hpp"
+#include "runner/input/case_tables.hpp"
+#include "runner/input/plate_build.hpp"
+#include "runner/input/toml_table.hpp"
+
+namespace diptych::runner {
+namespace {
+
+/// The place of a name that one_of has let through; the first one's where it has not.
+template <class Value>
+Value in_order(const std::string& name, const Names& names) {
+  const auto place = std::find(names.begin(), names.end(), name);
+  return place == names.end() ? Value{} : static_cast<Value>(place - names.begin());
+}
+
+/// The value that a name of the list stands for, in the list's order.
+template <class Value>
+Value named(Table& t, const std::string& key, const std::vector<std::pair<std::string, Value>>& all, Value usual) {
+  Names names;
+  for (const auto& one : all) names.push_back(one.first);
+  const std::string name = t.get(key, one_of(names));
+  for (const auto& [other, value] : all)
+    if (other == name) return value;
+  return usual;
+}
+
+Rule<double> below(double bound, const Rule<double>& rule, const std::string& allowed) {
+  return {[=](const Place& place) -> std::optional<double> {
+            const auto value = rule.read(place);
+            if (value && *value >= bound) return place.refuse_value(allowed);
+            return value;
+          },
+          rule.missing};
+}
+
+double seconds(Table& t, const std::string& key, const Rule<double>& number, bool needed) {
+  const Rule<Measured> rule = with_unit({"s"}, number);
+  return (needed ? t.must(key, rule) : t.maybe(key, rule)).value_or(Measured{0, "s"}).value;
+}
+
+/// Expressions of the given variables, one a component; all or none.
+template <std::size_t n>
+std::array<std::string, n> read_components(Table& t, const std::string& key, const Names& variables, const Case& c) {
+  std::array<std::string, n> out;
+  const Place place = t.place(key);
+  if (!place.node) return out;
+  const auto* list = place.node->as<Node::List>();
+  if (!list || list->size() != n) {
+    place.refuse_value(fmt::format("a list of {} expressions in quotes, one a component", n));
+    return out;
+  }
+  bool good = true;
+  for (std::size_t k = 0; k < n; ++k) {
+    const Place entry = place.entry(k);
+    const auto one = formula().read(entry);
+    if (one) check_expression(entry, *one, variables, c);
+    good = good && one;
+    out[k] = one.value_or("");
+  }
+  return good ? out : std::array<std::string, n>{};
+}
+
+std::string read_formula(Table& t, const std::string& key, const Names& variables, const Case& c) {
+  const std::string text = t.get(key, formula());
+  check_expression(t.place(key), text, variables, c);
+  return text;
+}
+
+void read_shape(Table& t, Case& c) {
+  PlateSpec& plate = *c.plate;
+  plate.width = t.need("width", positive());
+  if (t.has("rows")) {
+    plate.rows = t.need("rows", whole(1, 10'000));
+    for (const char* key : {"height", "cell_aspect"})
+      if (t.has(key))
+        t.place(key).say("found beside rows; allowed: without it: rows of square cells make the height on every mesh");
+    plate.height = plate.rows * plate.width / 100;  // of a mesh to try expressions on; each run has its own
+    return;
+  }
+  plate.height = t.need("height", positive());
+  plate.cell_aspect = t.get("cell_aspect", positive(), plate.cell_aspect);
+}
+
+void read_plate_material(Table& t, Case& c) {
+  PlateSpec& plate = *c.plate;
+  const std::string model = t.need("model", one_of({"elastic", "tensile-damage", "failure-wave"}));
+  material::PlaneElastic elastic;
+  elastic.youngs_modulus = t.need("E", positive());
+  elastic.poissons_ratio = t.must("nu", below(0.5, any_number(), "-1 < nu < 0.5")).value_or(0);
+  if (elastic.poissons_ratio <= -1) t.place("nu").refuse(words(elastic.poissons_ratio), "-1 < nu < 0.5");
+  elastic.density = t.need("rho", positive());
+  elastic.plane =
+      t.need("plane", one_of({"strain", "stress"})) == "stress" ? material::Plane::stress : material::Plane::strain;
+  t.maybe_table("compression", [&](Table& p) {
+    plate.compression = material::Compression{p.need("strength", not_negative()), p.need("slope", not_negative())};
+    if (elastic.plane == material::Plane::stress)
+      p.say("found in plane stress, where the plastic flow across the plane is not known; allowed: plane = \"strain\"");
+  });
+  const auto of_damage = [&](const char* key) { return t.applies(key, "model", model, {"tensile-damage"}); };
+  material::TensileDamage damage;
+  damage.elastic = elastic;
+  if (of_damage("K_IC")) damage.fracture_toughness = t.need("K_IC", positive());
+  if (of_damage("k")) damage.flaw_density = t.need("k", positive());
+  if (of_damage("m")) damage.exponent = t.need("m", positive());
+  if (of_damage("beta")) damage.beta = t.get("beta", not_negative(), damage.beta);
+  if (of_damage("residual_stiffness"))
+    damage.residual_stiffness = t.get("residual_stiffness", positive(), damage.residual_stiffness);
+  if (of_damage("closure"))
+    damage.closure = t.get("closure", one_of({"volumetric", "whole"})) == "whole" ? material::Closure::whole
+                                                                                  : material::Closure::volumetric;
+  if (of_damage("volumetric")) damage.trace = t.get("volumetric", one_of({"mean", "trace"})) == "trace";
+  const auto of_failure = [&](const char* key) { return t.applies(key, "model", model, {"failure-wave"}); };
+  material::FailureWave failure{elastic, 0, 0};
+  if (of_failure("threshold")) failure.threshold = t.need("threshold", not_negative());
+  if (of_failure("f_max")) {
+    failure.most_converted = t.must("f_max", not_negative()).value_or(0);
+    if (failure.most_converted > 1)
+      t.place("f_max").refuse(words(failure.most_converted), "0 to 1, a part of the shear energy");
+  }
+  if (model == "failure-wave" && elastic.plane == material::Plane::stress)
+    t.place("plane").refuse("\"stress\" of a failure wave", "\"strain\"");
+  if (model == "failure-wave" && elastic.poissons_ratio <= 0)
+    t.place("nu").refuse(words(elastic.poissons_ratio) + " of a failure wave",
+                         "0 < nu < 0.5: the lateral stress is what its front is seen by");
+  if (model == "failure-wave" && plate.compression)
+    t.place("compression").say("found beside a failure wave; allowed: without");
+  if (model == "tensile-damage")
+    plate.material = damage;
+  else if (model == "failure-wave")
+    plate.material = failure;
+  else
+    plate.material = elastic;
+}
+
+void read_damage(Table& t, Case& c) {
+  const auto* law = std::get_if<material::TensileDamage>(&*c.plate->material);
+  diffusion::Evolution evolution;
+  if (law) {
+    evolution.crack_coefficient = law->crack_coefficient();
+    evolution.exponent = law->exponent;
+  }
+  evolution.critical_strain = t.need("critical_strain", positive());
+  evolution.damage_everywhere = t.get("shows", one_of({"where-critical", "everywhere"})) == "everywhere";
+  if (!t.get("capped", flag(), true)) evolution.cap = std::numeric_limits<double>::infinity();
+  evolution.heals = t.get("heals", flag(), evolution.heals);
+  const std::string rate = t.need("rate", one_of({"reference", "tracked"}));
+  evolution.rate = rate == "tracked" ? diffusion::Rate::tracked : diffusion::Rate::reference;
+  if (t.applies("reference_rate", "rate", rate, {"reference"}))
+    evolution.reference_rate = t.need("reference_rate", positive());
+  if (t.applies("rate_floor", "rate", rate, {"tracked"}))
+    evolution.rate_floor = t.get("rate_floor", positive(), evolution.rate_floor);
+  c.plate->evolution = evolution;
+}
+
+diffusion::Scheme read_scheme(Table& t, diffusion::Scheme usual) {
+  using diffusion::Scheme;
+  return named<Scheme>(t, "scheme",
+                       {{"forward-euler", Scheme::forward_euler},
+                        {"sub-cycled", Scheme::sub_cycled},
+                        {"rkl2", Scheme::rkl2},
+                        {"backward-euler", Scheme::backward_euler},
+                        {"crank-nicolson", Scheme::crank_nicolson}},
+                       usual);
+}
+
+diffusion::Reading read_reading(Table& t) {
+  using diffusion::Reading;
+  return named<Reading>(t, "reading", {{"isotropic", Reading::isotropic}, {"radial", Reading::radial}},
+                        Reading::isotropic);
+}
+
+/// Of microcracks, driven by the strain (eqs. 25 to 28).
+void read_diffusion(Table& t, Case& c) {
+  diffusion::Diffusion d;
+  d.characteristic_time = t.need("T_d", positive());
+  d.mobility = t.need("lambda1", not_negative());
+  d.floor = t.get("floor", not_negative(), d.floor);
+  if (d.floor > 1) t.place("floor").refuse(words(d.floor), "0 to 1, a part of lambda1");
+  d.crack_volume = t.need("lambda2", positive());
+  d.rupture_strain = t.need("rupture_strain", positive());
+  using diffusion::Source;
+  const std::string source = t.need("source", one_of({"zone", "node", "everywhere"}));
+  d.source = source == "node" ? Source::node : source == "everywhere" ? Source::everywhere : Source::zone;
+  if (t.applies("radius", "source", source, {"zone"})) d.radius = t.need("radius", positive());
+  d.per_crack_volume = t.get("per_crack_volume", flag(), d.per_crack_volume);
+  d.saturates = t.get("saturates", flag(), d.saturates);
+  d.clip_strain = t.get("clip_strain", flag(), d.clip_strain);
+  d.scheme = read_scheme(t, d.scheme);
+  d.reading = read_reading(t);
+  d.drift = t.get("drift", not_negative(), d.drift);
+  if (d.drift > 0 && d.scheme == diffusion::Scheme::crank_nicolson)
+    t.place("drift").refuse(words(d.drift) + " with \"crank-nicolson\"",
+                            "0: it does not damp what a stale factorisation gets wrong");
+  if (!c.plate->evolution) {
+    t.say("found beside a material without damage; allowed: with material.model = \"tensile-damage\" and [damage]");
+    return;
+  }
+  c.plate->evolution->diffusion = d;
+}
+
+/// Of the dilatancy of a failure wave.
+diffusion::Spread read_spread(Table& t) {
+  using diffusion::Profile;  // in the order of its names
+  diffusion::Spread spread;
+  spread.diffusivity = t.need("d0", not_negative());
+  const Names profiles{"falling", "constant", "rising"};
+  spread.profile = in_order<Profile>(t.need("profile", one_of(profiles)), profiles);
+  spread.scheme = read_scheme(t, spread.scheme);
+  return spread;
+}
+
+void read_dilatancy(Table& t, Case& c) {
+  PlateSpec& plate = *c.plate;
+  plate.spread = read_spread(t);
+  plate.spread->drift = t.get("drift", not_negative(), 0);
+  if (plate.spread->drift > 0 && plate.spread->scheme == diffusion::Scheme::crank_nicolson)
+    t.place("drift").refuse(words(plate.spread->drift) + " with \"crank-nicolson\"",
+                            "0: it does not damp what a stale factorisation gets wrong");
+  plate.spread->keeps_largest = t.get("face_holds", one_of({"present", "largest"})) == "largest";
+  if (!t.has("face")) return;
+  plate.face = t.need("face", not_negative());
+  if (plate.width > 0 && *plate.face > plate.width)
+    t.place("face").refuse(words(*plate.face), "a place in the plate, 0 to " + words(plate.width) + " m");
+}
+
+/// Of anything, in a scene without a material.
+void read_pure_diffusion(Table& t, Case& c) {
+  PureDiffusion d;
+  const std::string law = t.get("law", one_of({"given", "dilatancy"}), "given");
+  if (law == "dilatancy") {
+    d.spread = read_spread(t);
+    d.scheme = d.spread->scheme;
+    for (const char* key : {"diffusivity", "rate", "corner_rate", "reading"})
+      if (t.has(key)) t.place(key).say("found with law = \"dilatancy\"; allowed: d0, profile and scheme");
+    c.plate->diffusion = d;
+    return;
+  }
+  for (const char* key : {"d0", "profile"})
+    if (t.has(key)) t.place(key).say("found without law = \"dilatancy\"; allowed: with it");
+  d.diffusivity = t.must("diffusivity", constant_formula()).value_or("1");
+  check_expression(t.place("diffusivity"), d.diffusivity, {"x", "y"}, c);
+  d.rate = read_formula(t, "rate", {"x", "y", "t"}, c);
+  d.corner_rate = t.get("corner_rate", any_number(), 0);
+  d.scheme = read_scheme(t, d.scheme);
+  d.reading = read_reading(t);
+  c.plate->diffusion = d;
+}
+
+void read_plate_supports(Table& t, Case& c) {
+  using Support = Edge::Support;
+  for (std::size_t side = 0; side < 4; ++side) {
+    c.plate->supports[side] = in_order<Support>(t.need(side_names[side], one_of(support_names)), support_names);
+  }
+  const auto& supports = c.plate->supports;
+  const bool driven = std::find(supports.begin(), supports.end(), Support::driven) != supports.end();
+  c.plate->drive = read_components<2>(t, "velocity", {"x", "y", "t"}, c);
+  if (driven && !t.has("velocity"))
+    t.place("velocity").say("missing; allowed: the velocity of driven sides, two expressions of x, y and t");
+  if (!driven && t.has("velocity")) t.place("velocity").say("found without a driven side; allowed: with one");
+  if (std::count(supports.begin(), supports.end(), Support::platen) > 1)
+    t.say("found two platens; allowed: at most one");
+}
+
+void read_plate_load(Table& t, Case& c) {
+  SideLoad load;
+  const std::string at = t.need("at", one_of(side_names));
+  load.side = in_order<Side>(at, side_names);
+  const std::string direction = t.get("direction", one_of({"normal", "shear"}));
+  load.shear = direction == "shear";
+  load.history = t.need("history", one_of({"step", "ramp", "impulse", "expression"}));
+  const Place traction = t.place("traction");
+  if (load.history == "expression") {
+    load.traction = t.need("traction", formula());
+    check_expression(traction, load.traction, {"t"}, c);
+  } else {
+    load.traction = t.must("traction", constant_formula()).value_or("0");
+    if (!check_constant(traction, load.traction, c)) load.traction = "0";
+  }
+  if (t.applies("start", "history", load.history, {"step", "ramp", "impulse"}))
+    load.start = seconds(t, "start", not_negative(), false);
+  if (t.applies("rise", "history", load.history, {"ramp"})) load.rise = seconds(t, "rise", positive(), true);
+  if (t.applies("duration", "history", load.history, {"impulse"}))
+    load.duration = seconds(t, "duration", positive(), true);
+  if (at.empty() || (t.has("direction") && direction.empty())) return;
+  using Support = Edge::Support;
+  const Support support = c.plate->supports[static_cast<std::size_t>(load.side)];
+  const bool held = support == Support::fixed || support == Support::driven ||
+                    (load.shear ? support == Support::platen : support == Support::roller);
+  if (held)
+    t.place("at").refuse(fmt::format("a {} load on the {} side, which is held so", load.shear ? "shear" : "normal", at),
+                         "loads on what is free to move");
+  for (const SideLoad& other : c.plate->loads)
+    if (other.side == load.side && other.shear == load.shear)
+      t.place("at").refuse("a second load of this kind on the " + at + " side", "one of each direction on each side");
+  c.plate->loads.push_back(load);
+}
+
+void read_plate_initial(Table& t, Case& c) {
+  if (c.plate->material) {
+    c.plate->initial_velocity = read_components<2>(t, "velocity", {"x", "y"}, c);
+    c.plate->initial_displacement = read_components<2>(t, "displacement", {"x", "y"}, c);
+    if (c.plate->spread) c.plate->initial_concentration = read_formula(t, "dilatancy", {"x", "y"}, c);
+  } else if (!c.plate->diffusion || !c.plate->diffusion->spread) {
+    c.plate->initial_concentration = read_formula(t, "concentration", {"x", "y"}, c);
+  }
+}
+
+void read_flyer(Table& t, Case& c) {
+  FlyerSpec flyer;
+  flyer.thickness = t.need("thickness", positive());
+  flyer.velocity = t.need("velocity", positive());
+  const Measured gap = t.maybe("gap", with_unit({"m", "cells"}, not_negative())).value_or(Measured{0, "m"});
+  flyer.gap = gap.value;
+  flyer.gap_unit = gap.unit;
+  const double width = c.plate->width;
+  if (width > 0 && flyer.thickness >= width)
+    t.place("thickness")
+        .refuse(words(flyer.thickness), "less than the plate's width, " + words(width) + ": the rest is the target");
+  using Support = Edge::Support;
+  for (std::size_t side = 0; side < 4; ++side)
+    if (c.plate->supports[side] == Support::driven || c.plate->supports[side] == Support::platen)
+      t.say("found beside a driven side or a platen; allowed: free sides, rollers and fixed ones");
+  c.plate->flyer = flyer;
+}
+
+/// Eq. 21; the other form stands in no plate yet.
+void read_plate_viscosity(Table& t, Case& c) {
+  material::Viscosity v;
+  t.need("form", one_of({"york"}));
+  v.c1 = t.need("c1", not_negative());
+  v.c2 = t.need("c2", not_negative());
+  v.bulk = t.get("bulk", positive(), v.bulk);
+  v.length = t.get("length", positive(), v.length);
+  v.always = t.get("acts", one_of({"compression", "always"})) == "always";
+  if (!c.plate->spread && (c.plate->evolution || c.plate->compression))
+    t.say("found beside tensile damage or plasticity; allowed: with an elastic plate or a failure wave");
+  c.plate->viscosity = v;
+}
+
+void read_plate_exact(Table& t, Case& c) {
+  PlateExact& exact = c.plate->exact;
+  const Names modes{"lame-mode", "roller-mode", "p-wave", "s-wave"};
+  const bool spreads = c.plate->diffusion && c.plate->diffusion->spread;
+  Names solutions = c.plate->material ? modes : spreads ? Names{"face-front"} : Names{"corner-source"};
+  if (c.plate->material) solutions.push_back("plate-impact");
+  solutions.push_back("expressions");
+  exact.solution = t.need("solution", one_of(solutions, "without an exact solution leave out the whole table [exact]"));
+  const auto of = [&](const char* key, const Names& owners) {
+    return t.applies(key, "solution", exact.solution, owners);
+  };
+  if (of("mode", modes)) exact.mode = t.need("mode", whole(1, 1000));
+  if (of("amplitude", modes)) exact.amplitude = t.need("amplitude", not_zero());
+  if (of("start", modes)) exact.from_rest = t.get("start", one_of({"displaced", "moving"})) != "moving";
+  const Names xyt{"x", "y", "t"};
+  if (of("displacement", {"expressions"})) exact.displacement = read_components<2>(t, "displacement", xyt, c);
+  if (of("velocity", {"expressions"})) exact.velocity = read_components<2>(t, "velocity", xyt, c);
+  if (of("stress", {"expressions"})) exact.stress = read_components<3>(t, "stress", xyt, c);
+  if (of("concentration", {"expressions"})) exact.concentration = read_formula(t, "concentration", xyt, c);
+  if (exact.solution == "expressions" && !t.has("displacement") && !t.has("velocity") && !t.has("stress") &&
+      !t.has("concentration"))
+    t.place("solution")
+        .say(
+            "found \"expressions\" without one; allowed: at least one of the keys displacement, velocity, stress, "
+            "concentration");
+  if (of("core", {"corner-source", "expressions"}))
+    exact.core = exact.solution == "corner-source" ? t.need("core", positive()) : t.get("core", positive(), 0);
+  using Support = Edge::Support;
+  const auto all_are = [&](Support support) {
+    const auto& supports = c.plate->supports;
+    return std::all_of(supports.begin(), supports.end(), [&](Support s) { return s == support; });
+  };
+  if (exact.solution == "lame-mode" && !all_are(Support::free))
+    t.place("solution").refuse("\"lame-mode\" of a plate that is held", "with four free sides");
+  if ((exact.solution == "roller-mode" || exact.solution == "p-wave") && !all_are(Support::roller))
+    t.place("solution").refuse(words(exact.solution) + " of a plate held otherwise", "with four sides on rollers");
+  if (exact.solution == "plate-impact") {
+    const auto& s = c.plate->supports;
+    const auto place = t.place("solution");
+    if (!c.plate->flyer) place.refuse("\"plate-impact\" without a flyer", "with [flyer]");
+    if (!std::holds_alternative<material::PlaneElastic>(*c.plate->material))
+      place.refuse("\"plate-impact\" of a solid that fails", "of an elastic one");
+    if (s[0] != Support::free || s[1] != Support::free || s[2] != Support::roller || s[3] != Support::roller)
+      place.refuse("\"plate-impact\" of a plate held otherwise",
+                   "with the left and right sides free and the others on rollers");
+  }
+  const bool square = !(c.plate->width > 0 && c.plate->height > 0) ||
+                      std::abs(c.plate->width - c.plate->height) <= 1e-12 * c.plate->width;
+  if (!square && (exact.solution == "lame-mode" || exact.solution == "roller-mode"))
+    t.place("solution").refuse(words(exact.solution) + " of a rectangle", "on a square: width = height");
+  if (exact.solution == "corner-source" && c.plate->diffusion && c.plate->diffusion->corner_rate == 0)
+    t.place("solution").say("found \"corner-source\" without one; allowed: with diffusion.corner_rate other than 0");
+}
+
+/// What a variant may change: all that makes the scene.
+void read_scene(Table& file, Case& c) {
+  c.plate = PlateSpec{};
+  file.table("plate", [&](Table& t) { read_shape(t, c); });
+  file.maybe_table("material", [&](Table& t) { read_plate_material(t, c); });
+  file.maybe_table("parameters", [&](Table& t) { read_parameters(t, c); });
+  if (!c.plate->material) {
+    for (const char* key : {"supports", "damage", "load", "body_force", "flyer", "viscosity"})
+      if (file.has(key)) file.place(key).say("found in a scene without [material]; allowed: with one");
+    file.table("diffusion", [&](Table& t) { read_pure_diffusion(t, c); });
+  } else {
+    const bool damaging = std::holds_alternative<material::TensileDamage>(*c.plate->material);
+    if (damaging)
+      file.table("damage", [&](Table& t) { read_damage(t, c); });
+    else if (file.has("damage"))
+      file.place("damage").say("found beside an elastic material; allowed: with material.model = \"tensile-damage\"");
+    if (std::holds_alternative<material::FailureWave>(*c.plate->material))
+      file.table("diffusion", [&](Table& t) { read_dilatancy(t, c); });
+    else
+      file.maybe_table("diffusion", [&](Table& t) { read_diffusion(t, c); });
+    file.table("supports", [&](Table& t) { read_plate_supports(t, c); });
+    file.maybe_table("flyer", [&](Table& t) { read_flyer(t, c); });
+    file.maybe_table("viscosity", [&](Table& t) { read_plate_viscosity(t, c); });
+    if (c.plate->flyer && c.plate->face)
+      file.place("flyer").say("found beside diffusion.face; allowed: one of them: the flyer's face is the impact face");
+    if (c.plate->flyer && file.has("initial"))
+      file.place("initial").say("found beside [flyer], which sets the start; allowed: one of them");
+    file.each("load", [&](Table& t) { read_plate_load(t, c); });
+    file.maybe_table("body_force", [&](Table& t) {
+      c.plate->body_force = read_components<2>(t, "acceleration", {"x", "y", "t"}, c);
+    });
+  }
+  file.maybe_table("initial", [&](Table& t) { read_plate_initial(t, c); });
+  file.maybe_table("exact", [&](Table& t) { read_plate_exact(t, c); });
+  const bool mode = contains({"lame-mode", "roller-mode", "p-wave", "s-wave"}, c.plate->exact.solution);
+  for (const char* key : {"initial", "load", "body_force"})
+    if (mode && file.has(key))
+      file.place(key).say("found beside " + words(c.plate->exact.solution) +
+                          ", which sets its own start and is not loaded; allowed: without");
+}
+
+/// The value at keys[from], keys[from + 1], ... of a tree of tables, made where it is missing.
+void put(Node& node, const Names& keys, std::size_t from, const Node& value, Position at) {
+  if (from == keys.size()) {
+    node = value;
+    return;
+  }
+  if (!node.as<Node::Entries>()) node.value = Node::Entries{};
+  auto& entries = std::get<Node::Entries>(node.value);
+  auto one = std::find_if(entries.begin(), entries.end(), [&](const Node::Entry& e) { return e.key == keys[from]; });
+  if (one == entries.end()) {
+    one = std::lower_bound(entries.begin(), entries.end(), keys[from],
+                           [](const Node::Entry& e, const std::string& key) { return e.key < key; });
+    one = entries.insert(one, {keys[from], at, Node{at, Node::DateOrTime{}}});
+  }
+  put(one->value, keys, from + 1, value, at);
+}
+
+/// Whether it was there.
+bool take(Node& node, const Names& keys, std::size_t from) {
+  auto* entries = std::get_if<Node::Entries>(&node.value);
+  if (!entries) return false;
+  const auto one =
+      std::find_if(entries->begin(), entries->end(), [&](const Node::Entry& e) { return e.key == keys[from]; });
+  if (one == entries->end()) return false;
+  if (from + 1 < keys.size()) return take(one->value, keys, from + 1);
+  entries->erase(one);
+  return true;
+}
+
+Names split_key(const std::string& key) {
+  Names parts{""};
+  for (const char ch : key) {
+    if (ch == '.')
+      parts.emplace_back();
+    else
+      parts.back() += ch;
+  }
+  return parts;
+}
+
+/// Another scene: the file's with some keys set or left out.
+void read_variant(Table& t, Table& file, Case& c) {
+  PlateVariant variant;
+  variant.id = t.need("id", id());
+  variant.says = t.need("says", text());
+  Node scene = *file.itself().node;
+  const Names allowed{"plate",     "material", "damage",     "diffusion", "supports", "flyer",
+                      "viscosity", "load",     "body_force", "initial",   "exact"};
+  const auto known = [&](const Place& place, const std::string& key) {
+    if (contains(allowed, split_key(key).front())) return true;
+    place.refuse(words(key), "keys of the scene's tables, like \"damage.rate\": " + joined(allowed));
+    return false;
+  };
+  for (const std::string& key : t.get("without", set_of(text())))
+    if (known(t.place("without"), key) && !take(scene, split_key(key), 0))
+      t.place("without").refuse(words(key) + ", which the scene lacks", "keys that it has");
+  t.maybe_table("set", [&](Table& s) {
+    for (const auto& entry : s.entries()) {
+      if (known(s.place(entry.key), entry.key)) put(scene, split_key(entry.key), 0, entry.value, entry.at);
+    }
+  });
+  if (!t.has("set") && !t.has("without")) t.say("found no change; allowed: set or without");
+  Case other = c;
+  other.variants.clear();
+  std::vector<Mistake> mistakes;
+  Table whole({&mistakes, &scene, t.itself().at, "file"}, "variant " + words(variant.id) + ": ");
+  read_scene(whole, other);
+  for (const Mistake& one : mistakes) t.itself().mistakes->push_back(one);
+  variant.plate = *other.plate;
+  const auto same = [&](const PlateVariant& v) { return v.id == variant.id; };
+  if (std::any_of(c.variants.begin(), c.variants.end(), same))
+    t.place("id").refuse(words(variant.id) + " again", "an id of its own");
+  c.variants.push_back(variant);
+}
+
+PlateProbe read_plate_probe(Table& t, const Case& c) {
+  PlateProbe probe;
+  probe.id = t.need("id", id());
+  Names reads{"concentration", "total"};
+  if (c.plate->material) {
+    reads = {"displacement-x", "displacement-y", "velocity-x", "velocity-y", "stress-xx", "stress-yy", "stress-xy"};
+    const auto& supports = c.plate->supports;
+    if (std::find(supports.begin(), supports.end(), Edge::Support::platen) != supports.end()) reads.push_back("platen");
+    if (c.plate->evolution)
+      reads.insert(reads.end(), {"radius", "area", "largest", "acoustic-ratio", "acoustic-angle"});
+    if ((c.plate->evolution && c.plate->evolution->diffusion) || c.plate->spread)
+      reads.insert(reads.end(), {"concentration", "total"});
+  }
+  probe.reads = t.need("reads", one_of(reads));
+  const auto of = [&](const char* key, const Names& owners) { return t.applies(key, "reads", probe.reads, owners); };
+  if (of("angle", {"radius"})) {
+    probe.angle = t.need("angle", not_negative());
+    if (probe.angle > 90) t.place("angle").refuse(words(probe.angle), "0 to 90 degrees");
+  }
+  if (of("level", {"radius", "area"})) probe.level = t.need("level", positive());
+  Names at_a_place{"concentration"};
+  for (const std::string& name : reads)
+    if (name.find('-') != name.npos && !name.starts_with("acoustic")) at_a_place.push_back(name);
+  if (of("at", at_a_place)) {
+    const auto at = t.must("at", list_of(not_negative())).value_or(std::vector<double>{0, 0});
+    const bool known = c.plate->width > 0 && c.plate->height > 0;  // reported already
+    if (at.size() != 2 || (known && (at[0] > c.plate->width || at[1] > c.plate->height))) {
+      t.place("at").refuse(words(at), "[x, y] in the plate [m]");
+    } else {
+      probe.x = at[0];
+      probe.y = at[1];
+    }
+  }
+  return probe;
+}
+
+GaugeSpec read_gauge(Table& t, const Case& c) {
+  GaugeSpec gauge{t.need("id", id()), t.need("from_face", positive())};
+  const PlateSpec& plate = *c.plate;
+  if (!plate.flyer)
+    t.place("from_face").say("found without [flyer]; allowed: with one: a gauge's place counts from the impact face");
+  const auto check = [&](const PlateSpec& one, const std::string& of) {
+    if (!one.flyer || !(one.width > 0) || one.flyer->thickness >= one.width) return;  // no target: refused already
+    if (one.flyer->thickness + gauge.from_face > one.width)
+      t.place("from_face")
+          .refuse(words(gauge.from_face),
+                  fmt::format("in the target{}, whose thickness is {:g} m", of, one.width - one.flyer->thickness));
+  };
+  check(plate, "");
+  for (const PlateVariant& variant : c.variants) check(variant.plate, " of variant " + words(variant.id));
+  return gauge;
+}
+
+void read_plate_sample(Table& t, Case& c) {
+  t.table("times", [&](Table& s) {
+    c.time_unit = s.need("unit", one_of({"s"}));
+    c.times = s.need("at", list_of(positive()));
+    if (ascending(c.times)) return;
+    s.place("at").refuse(words(c.times), "times in ascending order, each once");
+    c.times.clear();
+  });
+  c.plate_probes = read_each<PlateProbe>(t, "probes", c, read_plate_probe);
+  c.gauges = read_each<GaugeSpec>(t, "gauges", c, read_gauge);
+}
+
+void check_plate_features(const Place& place, const Case& c) {
+  if (c.features.empty()) return;
+  const auto used = plate_features(c);
+  for (const auto& [feature, key] : used)
+    if (!contains(c.features, feature))
+      place.say("missing " + words(feature) + ", which " + key + " switches on; allowed: exactly the features in use");
+  for (const std::string& feature : c.features)
+    if (!used.contains(feature))
+      place.say("found " + words(feature) +
+                ", which nothing in the scene switches on; allowed: exactly the features in use");
+}
+
+/// Meshes that fit into memory.
+void check_meshes(const Place& place, const Case& c) {
+  if (!(c.plate->width > 0) || !(c.plate->height > 0)) return;
+  constexpr double most = 1e8;
+  for (const int cells : all_axes(c).cells) {
+    const double up =
+        c.plate->rows > 0 ? c.plate->rows : c.plate->height * cells / (c.plate->width * c.plate->cell_aspect);
+    if (!(up * cells <= most)) {  // before it is made a whole number
+      place.say(fmt::format("found {} × {:g} cells; allowed: at most {:g}", cells, up, most));
+    }
+  }
+}
+
+/// The impact face is a column of nodes on every mesh.
+void check_face(const Place& place, const std::string& what, const PlateSpec& plate, const Case& c) {
+  const auto face = plate.flyer ? std::optional(plate.flyer->thickness) : plate.face;
+  if (!face || !(plate.width > 0)) return;
+  for (const int cells : all_axes(c).cells) {
+    const double column = *face * cells / plate.width;
+    if (std::abs(column - std::round(column)) <= 1e-9 * cells) continue;
+    place.refuse(fmt::format("{} at {:g} cells of the mesh of {} cells", what, column, cells),
+                 "on a column of nodes on every mesh");
+    return;
+  }
+}
+
+/// What MPM cannot take.
+void check_mpm(const AxesBlock& block, const Case& c) {
+  const auto mpm = [](const std::string& method) { return method.starts_with("mpm"); };
+  if (std::none_of(block.axes.method.begin(), block.axes.method.end(), mpm)) return;
+  constexpr std::size_t most = 8;
+  for (const auto& positions : block.axes.particles)
+    if (positions.size() > most)
+      block.method.say(
+          fmt::format("found {0} × {0} particles in a cell; allowed: at most {1} × {1}", positions.size(), most));
+  const auto& supports = c.plate->supports;
+  const bool bound = std::any_of(supports.begin(), supports.end(), [](Edge::Support s) {
+    return s == Edge::Support::driven || s == Edge::Support::platen;
+  });
+  if (c.convected && (bound || !c.plate->loads.empty()))
+    block.method.say(
+        "found MPM together with finite displacements and a load, a driven side or a platen; allowed: free sides, "
+        "rollers and fixed ones: the others stand on the grid, which the particles leave");
+  if (c.convected && (c.plate->flyer || c.plate->viscosity || c.plate->spread))
+    block.method.say(
+        "found MPM together with finite displacements and a flyer, a failure wave or viscosity; allowed: "
+        "\"infinitesimal\": the grid follows the material");
+}
+
+/// Expressions are tried at the sample times, which are read, and found wrong, only after the scene.
+void peek_at_times(Table& file, Case& c) {
+  const Node* sample = file.place("sample").node;
+  if (!sample || !sample->as<Node::Entries>()) return;
+  std::vector<Mistake> unheard;
+  Table whole({&unheard, sample, sample->at, ""}, "");
+  c.time_unit = "s";
+  whole.maybe_table("times", [&](Table& t) { c.times = t.get("at", list_of(positive())); });
+}
+
+}  // namespace
+
+void read_plate_case(Table& file, Case& c) {
+  std::size_t before = file.mistakes();
+  peek_at_times(file, c);
+  read_scene(file, c);
+  const bool scene_is_read = file.mistakes() == before;
+  file.table("model", [&](Table& t) {
+    c.convected = t.get("displacements", one_of({"infinitesimal", "finite"})) == "finite";
+    if (c.plate->material && t.has("pic")) {
+      c.plate->pic = t.get("pic", not_negative());
+      if (c.plate->pic > 1) t.place("pic").refuse(words(c.plate->pic), "0 (FLIP) to 1 (PIC)");
+    }
+    c.features =
+        t.need("features", set_of(one_of({"elastic", "damage", "diffusion", "compression-plasticity", "platen",
+                                          "body-force", "convection", "pic", "failure-wave", "impact", "viscosity"})));
+    std::sort(c.features.begin(), c.features.end());
+    if (scene_is_read) check_plate_features(t.place("features"), c);
+    if (c.convected && c.plate->evolution)
+      t.place("displacements").say("found \"finite\" beside damage; allowed: \"infinitesimal\", as in the paper");
+  });
+  if (scene_is_read) file.each("variant", [&](Table& t) { read_variant(t, file, c); });
+  const double pic = c.plate->pic;
+  for (PlateVariant& variant : c.variants) variant.plate.pic = pic;
+  if (!scene_is_read) {  // their ids, so that [axes] is not blamed for naming them
+    file.each("variant", [&](Table& t) {
+      c.variants.push_back({t.get("id", id()), "", *c.plate});
+      for (const char* key : {"says", "set", "without"}) t.place(key);
+    });
+  }
+  const std::vector<AxesBlock> blocks = read_all_axes(file, c, methods_of(c), {{0.25, 0.75}});
+  for (const AxesBlock& block : blocks) check_mpm(block, c);
+  file.table("sample", [&](Table& t) { read_plate_sample(t, c); });
+  if (scene_is_read) {
+    check_meshes(file.place("axes"), c);
+    const Place face = file.place(c.plate->flyer ? "flyer" : "diffusion");
+    check_face(face, "the impact face", *c.plate, c);
+    for (const PlateVariant& variant : c.variants)
+      check_face(face, "the impact face of variant " + words(variant.id), variant.plate, c);
+  }
+}
+
+}  // namespace diptych::runner

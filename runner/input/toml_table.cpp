@@ -1,0 +1,275 @@
+#include "runner/input/toml_table.hpp"
+
+#include <fmt/core.h>
+#include <toml++/toml.h>
+
+#include <cmath>
+
+#include "runner/input/messages.hpp"
+
+namespace diptych::runner {
+namespace {
+
+Position position(toml::source_position at) { return {at.line, at.column}; }
+
+Node copied(const toml::node& node) {
+  Node copy{position(node.source().begin), {}};
+  if (const auto* text = node.as_string()) copy.value = text->get();
+  if (const auto* whole = node.as_integer()) copy.value = whole->get();
+  if (const auto* number = node.as_floating_point()) copy.value = number->get();
+  if (const auto* flag = node.as_boolean()) copy.value = flag->get();
+  if (const auto* array = node.as_array()) {
+    auto& list = copy.value.emplace<Node::List>();
+    for (const toml::node& one : *array) list.push_back(copied(one));
+  }
+  if (const auto* table = node.as_table()) {
+    auto& entries = copy.value.emplace<Node::Entries>();
+    for (const auto& [key, value] : *table)  // toml++ keeps tables sorted by key
+      entries.push_back({std::string(key.str()), position(key.source().begin), copied(value)});
+  }
+  return copy;
+}
+
+std::string declared(const Node::Entries& entries);
+
+std::string declared(const Node& node) {
+  if (const auto* entries = node.as<Node::Entries>()) return '{' + declared(*entries) + '}';
+  if (const auto number = node.number()) return words(*number);
+  const auto* list = node.as<Node::List>();
+  if (!list) return words(node);
+  Names values;
+  for (const Node& one : *list) values.push_back(declared(one));
+  return '[' + listed(values, " ") + ']';
+}
+
+std::string declared(const Node::Entries& entries) {
+  Names values;
+  for (const Node::Entry& one : entries) values.push_back(one.key + '=' + declared(one.value));
+  return listed(values, " ");
+}
+
+Rule<double> finite(const std::string& range, bool (*within)(double), const std::string& hint = "") {
+  const std::string allowed = "a finite number" + range;
+  return {[=](const Place& place) -> std::optional<double> {
+            const auto value = place.node->number();
+            if (value && std::isfinite(*value) && within(*value)) return value;
+            return place.refuse_value(allowed, hint);
+          },
+          "; allowed: " + allowed};
+}
+
+Rule<std::string> string_of(const std::string& allowed, bool (*good)(const std::string&)) {
+  return {[=](const Place& place) -> std::optional<std::string> {
+    if (const auto* text = place.node->as<std::string>(); text && good(*text)) return *text;
+    return place.refuse_value(allowed);
+  }};
+}
+
+}  // namespace
+
+// ---- values and their places ----------------------------------------------------------------------------------------
+
+std::optional<double> Node::number() const {
+  constexpr std::int64_t largest = std::int64_t{1} << 53;
+  if (const auto* one = as<double>()) return *one;
+  const auto* whole = as<std::int64_t>();
+  if (!whole || *whole < -largest || *whole > largest) return {};
+  return static_cast<double>(*whole);
+}
+
+std::string words(const Node& node) {
+  if (const auto* text = node.as<std::string>()) return words(*text);
+  if (const auto* whole = node.as<std::int64_t>()) return std::to_string(*whole);
+  if (const auto* flag = node.as<bool>()) return *flag ? "true" : "false";
+  if (const auto* number = node.as<double>()) {
+    const std::string text = words(*number);
+    return text.find_first_not_of("-0123456789") == std::string::npos ? text + ".0" : text;
+  }
+  if (const auto* list = node.as<Node::List>()) return list->empty() ? "an empty list" : "a list";
+  return node.as<Node::Entries>() ? "a table" : "a date or time";
+}
+
+void Place::say(const std::string& message) const { mistakes->push_back({at, label + ": " + message}); }
+
+std::nullopt_t Place::refuse(const std::string& what, const std::string& allowed, const std::string& hint) const {
+  say("found " + what + "; allowed: " + allowed + (hint.empty() ? "" : "; " + hint));
+  return std::nullopt;
+}
+
+std::nullopt_t Place::refuse_value(const std::string& allowed, const std::string& hint) const {
+  return refuse(words(*node), allowed, hint);
+}
+
+Place Place::entry(std::size_t index) const {
+  const Node& one = (*node->as<Node::List>())[index];
+  return {mistakes, &one, one.at, fmt::format("{}, entry {}", label, index + 1)};
+}
+
+// ---- rules ----------------------------------------------------------------------------------------------------------
+
+Rule<double> any_number(const std::string& hint) {
+  return finite(
+      "", [](double) { return true; }, hint);
+}
+Rule<double> positive(const std::string& hint) {
+  return finite(
+      " > 0", [](double value) { return value > 0; }, hint);
+}
+Rule<double> not_negative() {
+  return finite(" >= 0", [](double value) { return value >= 0; });
+}
+Rule<double> not_zero() {
+  return finite(" other than 0", [](double value) { return value != 0; });
+}
+
+Rule<int> whole(int least, int most) {
+  return {[=](const Place& place) -> std::optional<int> {
+    const auto* value = place.node->as<std::int64_t>();
+    if (value && *value >= least && *value <= most) return static_cast<int>(*value);
+    return place.refuse_value(fmt::format("a whole number from {} to {}", least, most));
+  }};
+}
+
+Rule<bool> flag() {
+  return {[](const Place& place) -> std::optional<bool> {
+    if (const auto* value = place.node->as<bool>()) return *value;
+    return place.refuse_value("true or false");
+  }};
+}
+
+Rule<std::string> text(const std::string& allowed) {
+  return string_of(allowed, [](const std::string& value) { return value.find_first_not_of(" \t\r\n") != value.npos; });
+}
+
+Rule<std::string> id() {
+  return string_of("a name in quotes of a-z, 0-9, \".\" and \"-\"", [](const std::string& value) {
+    return !value.empty() && value.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789.-") == value.npos;
+  });
+}
+
+Rule<std::string> one_of(const Names& names, const std::string& hint) {
+  return {[=](const Place& place) -> std::optional<std::string> {
+            const auto* name = place.node->as<std::string>();
+            if (name && contains(names, *name)) return *name;
+            const std::string near = name ? suggestion(*name, names) : "";
+            return place.refuse_value(joined(names), near.empty() ? hint : near);
+          },
+          "; allowed: " + joined(names)};
+}
+
+Rule<std::array<double, 2>> interval(const Rule<double>& bound) {
+  return {[=](const Place& place) -> std::optional<std::array<double, 2>> {
+    const auto* list = place.node->as<Node::List>();
+    if (!list || list->size() != 2) return place.refuse_value("a list of two numbers, [least, most]");
+    const auto least = bound.read(place.entry(0)), most = bound.read(place.entry(1));
+    if (!least || !most) return {};
+    if (*least < *most) return std::array{*least, *most};
+    return place.refuse(words(std::vector{*least, *most}), "[least, most] with least < most");
+  }};
+}
+
+// ---- tables ---------------------------------------------------------------------------------------------------------
+
+Table::Table(const Place& place, const std::string& prefix) : place_(place), prefix_(prefix) {}
+
+Place Table::place(const std::string& key) {
+  known_.insert(key);
+  const auto one =
+      std::find_if(entries().begin(), entries().end(), [&](const Node::Entry& entry) { return entry.key == key; });
+  const Node* node = one == entries().end() ? nullptr : &one->value;
+  return {place_.mistakes, node, node && node->at.line > 0 ? node->at : place_.at, prefix_ + key};
+}
+
+std::string Table::declaration(const Names& without) const {
+  auto kept = entries();
+  std::erase_if(kept, [&](const Node::Entry& entry) { return contains(without, entry.key); });
+  return declared(kept);
+}
+
+bool Table::applies(const std::string& key, const std::string& choice, const std::string& chosen, const Names& owners) {
+  const bool there = has(key);
+  if (contains(owners, chosen)) return true;
+  if (there && !chosen.empty())
+    place(key).say(fmt::format("found, but it does not belong to {0} = {1}; allowed: with {0} = {2}", choice,
+                               words(chosen), joined(owners)));
+  return false;
+}
+
+void Table::table(const std::string& key, const Read& read) {
+  if (has(key))
+    maybe_table(key, read);
+  else
+    place(key).say("missing; allowed: a table [" + key + "]");
+}
+
+void Table::maybe_table(const std::string& key, const Read& read) {
+  const Place here = place(key);
+  if (!here.node) return;
+  if (!here.node->as<Node::Entries>()) {
+    here.refuse_value("one table [" + key + "]");
+    return;
+  }
+  Table table(here, here.label + '.');
+  read(table);
+  table.refuse_other_keys();
+}
+
+void Table::each(const std::string& key, const Read& read) {
+  const Place here = place(key);
+  if (!here.node) return;
+  const auto* list = here.node->as<Node::List>();
+  if (!list) here.refuse_value("[[" + key + "]] in double brackets, or a list of tables");
+  for (std::size_t i = 0; list && i < list->size(); ++i) {
+    Place entry = here.entry(i);
+    entry.label = fmt::format("{}{} {}", prefix_, key, i + 1);
+    if (!entry.node->as<Node::Entries>()) {
+      entry.refuse_value("a table of keys");
+      continue;
+    }
+    Table table(entry, entry.label + ": ");
+    read(table);
+    table.refuse_other_keys();
+  }
+}
+
+void Table::one_or_each(const std::string& key, const Read& read) {
+  const Node* node = place(key).node;
+  const auto* list = node ? node->as<Node::List>() : nullptr;
+  if (!node || node->as<Node::Entries>() || (list && list->empty()))
+    table(key, read);
+  else
+    each(key, read);
+}
+
+void Table::refuse_other_keys() const {
+  for (const auto& [key, at, value] : entries()) {
+    if (known_.count(key) != 0) continue;
+    std::string hint = suggestion(key, {known_.begin(), known_.end()});
+    if (key == "time_step" || key == "dt" || key == "timestep")
+      hint = "the time step is courant * cell size / wave speed: set axes.courant, > 0";
+    const bool nested = value.as<Node::List>() || value.as<Node::Entries>();
+    Place{place_.mistakes, &value, at, prefix_ + key}.say(fmt::format("found an unknown key{}; allowed: {}{}{}",
+                                                                      nested ? "" : " (= " + words(value) + ")",
+                                                                      listed(known_), hint.empty() ? "" : "; ", hint));
+  }
+}
+
+void read_toml(const std::string& toml, const std::string& name, const Table::Read& read) {
+  std::vector<Mistake> mistakes;
+  try {
+    const Node root = copied(toml::parse(toml));
+    Table table({&mistakes, &root, {1, 1}, "file"}, "");
+    read(table);
+    table.refuse_other_keys();
+  } catch (const toml::parse_error& error) {
+    mistakes.push_back({position(error.source().begin), "not TOML: " + std::string(error.description())});
+  }
+  for (Mistake& one : mistakes) one.at = {std::max(1u, one.at.line), std::max(1u, one.at.column)};
+  std::stable_sort(mistakes.begin(), mistakes.end(), [](const Mistake& a, const Mistake& b) { return a.at < b.at; });
+  Names lines;
+  for (const auto& [at, message] : mistakes)
+    lines.push_back(fmt::format("{}:{}:{}: {}", name, at.line, at.column, message));
+  if (!lines.empty()) throw InputError(listed(lines, "\n"));
+}
+
+}  // namespace diptych::runner
