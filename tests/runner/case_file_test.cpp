@@ -1369,7 +1369,8 @@ BOOST_AUTO_TEST_CASE(files) {
 
 /// The published schema must hold what the program reads: its examples are cases, and it names every gate quantity.
 BOOST_AUTO_TEST_CASE(examples_of_the_readme) {
-  const std::filesystem::path readme = std::filesystem::path(__FILE__).parent_path().parent_path().parent_path() / "cases/README.md";
+  const std::filesystem::path readme =
+      std::filesystem::path(__FILE__).parent_path().parent_path().parent_path() / "cases/README.md";
   std::ifstream in(readme);
   BOOST_REQUIRE_MESSAGE(in.good(), "cannot read " << readme);
   std::string line, text;

@@ -1,0 +1,21 @@
+#!/usr/bin/env bash
+# lint.sh format SOURCE: every source stands as clang-format 14 would write it.
+# lint.sh tidy SOURCE BUILD PART: clang-tidy 19 and clang's own warnings find nothing in a folder's sources (.clang-tidy).
+# Exit status 77, for ctest a test that was skipped: the tool is not on this machine.
+set -euo pipefail
+what=$1
+cd "$2"
+need() { command -v "$1" >/dev/null || { echo "skipped: $1 is not installed (apt-get install $2)"; exit 77; }; }
+case $what in
+  format)
+    need clang-format-14 clang-format-14
+    mapfile -t files < <(find hinge fem mpm analytic reports runner tests -name '*.[ch]pp' | sort)
+    clang-format-14 --dry-run -Werror "${files[@]}"
+    ;;
+  tidy)
+    need clang-tidy-19 clang-tidy-19
+    mapfile -t files < <(find "$4" -name '*.cpp' | sort)
+    clang-tidy-19 -p "$3" --quiet "${files[@]}" 2> >(grep -vE '^[0-9]+ warnings? (and [0-9]+ errors? )?generated' >&2)
+    ;;
+esac
+echo "${#files[@]} files"
