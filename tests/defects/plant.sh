@@ -24,7 +24,7 @@ defect() { # defect ID FIND REPLACE [IN]
     "$1" "$2" "$3" "${4:+in = \"$4\"}"
 }
 run() { "$plant" "$work/source" "$work/defects" "$work/out" fem/bar.cpp runner/app/main.cpp 2>"$work/words"; }
-mkdir -p "$work/source/cases" && echo 'int main() {}' >"$work/source/cases/main.cpp"
+mkdir -p "$work/source/runner/app" && echo 'int main() {}' >"$work/source/runner/app/main.cpp"
 
 {
   defect modulus '2 * x' '3 * x'
@@ -54,19 +54,19 @@ check 'its own test fails' grep -q 'teeth.modulus sh -c "cat .*exit 1"' "$work/o
 check 'the others do not' test "$(grep -c 'exit 1' "$work/out/teeth.cmake")" = 1
 
 # A header with a defect: what may include it is compiled anew when it changes, or when it has none any more.
-mkdir -p "$work/source/material" && echo 'inline double half(double x) { return x / 2; }' >"$work/source/material/half.hpp"
-printf '[[defect]]\nid = "half"\nfile = "material/half.hpp"\nfind = "x / 2"\nreplace = "x / 3"\nwhy = "a try"\ngates = ["a/b"]\n' \
+mkdir -p "$work/source/hinge/material" && echo 'inline double half(double x) { return x / 2; }' >"$work/source/hinge/material/half.hpp"
+printf '[[defect]]\nid = "half"\nfile = "hinge/material/half.hpp"\nfind = "x / 2"\nreplace = "x / 3"\nwhy = "a try"\ngates = ["a/b"]\n' \
   >"$work/defects/material.toml"
 older() { find "$work/out" -name '*.[ch]pp' -exec touch -d '2020-01-01' {} + && run && [ "$work/out/fem/bar.cpp" "$1" "$work/before" ]; }
 touch -d '2021-01-01' "$work/before"
 run
 check 'what stays as it is is not compiled anew' older -ot
-echo '// more' >>"$work/source/material/half.hpp"
+echo '// more' >>"$work/source/hinge/material/half.hpp"
 check 'what may include a header that has changed is' older -nt
-check 'with the header' grep -q more "$work/out/material/half.hpp"
+check 'with the header' grep -q more "$work/out/hinge/material/half.hpp"
 rm "$work/defects/material.toml"
 check 'and what may include one without defects' older -nt
-check 'which is gone' test ! -e "$work/out/material/half.hpp"
+check 'which is gone' test ! -e "$work/out/hinge/material/half.hpp"
 
 defect torn 'x + x' '2 * x' 'twice = x + x;' >"$work/defects/fem.toml"
 sed -i 's/x + x/3 * x + x/' "$work/source/fem/bar.cpp"
@@ -78,7 +78,7 @@ check 'two of one name are refused' sh -c "! '$plant' '$work/source' '$work/defe
 echo 'gate = "a/b"' >>"$work/defects/fem.toml"
 check 'and so are unknown keys' sh -c "! '$plant' '$work/source' '$work/defects' '$work/out' 2>/dev/null"
 # Every line of the solvers may get a remark.
-mkdir -p "$work/remarks" && cp -r "$source"/{material,diffusion,fem,mpm,analytic,reports,cases} "$work/remarks"
+mkdir -p "$work/remarks" && cp -r "$source"/{hinge,fem,mpm,analytic,reports,runner} "$work/remarks"
 find "$work/remarks" -name '*.[ch]pp' -exec sed -i '/[^\\]$/s#$#  // a remark#' {} +
 unfit() { "$plant" "$1" "$source/tests/defects" "$work/out" 2>&1 | grep '^planted defect' | cut -d: -f1; }
 unfit "$source" >"$work/unfit"
