@@ -1083,4 +1083,6 @@ Balance audit(const BarImpact& bars) {
   return audit(bars.parameters(), bars.snapshots(), [&](std::size_t k) { return bars.snapshot(k); });
 }
 
+double BarImpact::residual(double) const { return audit(*this).worst(); }
+
 }  // namespace diptych::analytic

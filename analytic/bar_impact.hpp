@@ -56,12 +56,6 @@ class BarImpact final : public ExactSolution {
     bool bonded = false;          ///< bars that touch, at t = 0 or later, hold together for ever, also in tension
   };
 
-  /// Bars `left` and `left` + 1 touched over [from, to] [s]; `to` is infinite where they still did at `until`.
-  struct Contact {
-    std::size_t left;
-    double from, to;
-  };
-
   struct Event {
     enum class Kind {
       fronts_meet,        ///< each other or a jump of the yield stress, inside a bar
@@ -112,6 +106,11 @@ class BarImpact final : public ExactSolution {
   /// the first bar). Displacement: by how much the stress scale lengthens all bars, Σ σL/E: not the flight.
   double scale(Quantity) const override;
 
+  /// Of all states up to `until`, whatever t_end.
+  double residual(double t_end) const override;
+  std::optional<std::vector<Contact>> contact_times() const override { return contacts(); }
+  std::optional<double> work_of_flow(double t) const override { return plastic_work(t); }
+
   double wave_speed(std::size_t bar) const;                ///< c [m/s]
   double position(double x, double t) const;               ///< x + u(x, t) [m]
   double momentum(double t) const;                         ///< of all bars, per unit of cross-section [kg/(m s)]
@@ -121,8 +120,9 @@ class BarImpact final : public ExactSolution {
   double plastic_work(double t) const;                     ///< ∫∫ σ dε_p [J/m²]
   double plastic_strain(std::size_t bar, double t) const;  ///< ∫ |ε_p| dx over a bar [m]
   double external_work(double t) const;                    ///< of the tractions up to t [J/m²]
-  const std::vector<Contact>& contacts() const;            ///< by start, then from left to right
-  const std::vector<Event>& events() const;                ///< by time
+  /// By start, then from left to right; `to` is infinite where they still touched at `until`.
+  const std::vector<Contact>& contacts() const;
+  const std::vector<Event>& events() const;  ///< by time
   const Parameters& parameters() const;
   std::size_t snapshots() const;         ///< the number of events, plus one for the start
   Snapshot snapshot(std::size_t) const;  ///< throws std::out_of_range

@@ -170,6 +170,13 @@ BarProblem problem(const BarWave::Parameters& p) {
           p.length};
 }
 
+double BarWave::residual(double t_end) const {
+  double settled = 0;
+  for (const BarEnd* end : {&p_.left, &p_.right})
+    for (const Traction::Kink& kink : end->traction.kinks) settled = std::max(settled, kink.time);
+  return self_test(*this, std::max(t_end, settled + 5 * p_.length / wave_speed())).worst();
+}
+
 Residual self_test(const BarWave& bar, double t_end) { return self_test(bar, problem(bar.parameters()), t_end); }
 
 }  // namespace diptych::analytic

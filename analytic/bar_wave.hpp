@@ -52,6 +52,8 @@ class BarWave final : public ExactSolution {
   std::vector<Front> fronts(double t) const override;
   /// Stress: the largest |f| of either end; velocity: that over ρc; displacement: that times L/E.
   double scale(Quantity) const override;
+  /// Until every front has been reflected at both ends.
+  double residual(double t_end) const override;
   double wave_speed() const;
   const Parameters& parameters() const { return p_; }
 

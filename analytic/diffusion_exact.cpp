@@ -301,4 +301,18 @@ DiffusionResidual self_test(const DiffusionSolution& solution, const DiffusionPr
   return SelfTest(solution, problem, t_begin, t_end).run();
 }
 
+double DiffusionSolution::residual(const PlaneWindow& window) const {
+  DiffusionProblem problem{};
+  problem.width = window.width;
+  problem.height = window.height;
+  problem.right_wall = problem.top_wall = walled();
+  problem.radial = radial();
+  problem.core = window.core;
+  problem.diffusivity = [this](double x, double y) { return diffusivity(x, y); };
+  problem.source = [this](double x, double y, double t) { return source(x, y, t); };
+  problem.scale = size();
+  problem.smooth_length = std::max(window.core, 0.05 * window.width);
+  return self_test(*this, problem, window.from, window.to).worst();
+}
+
 }  // namespace diptych::analytic

@@ -17,9 +17,12 @@ class DiffusionSolution : public PlaneSolution {
   virtual double concentration(double x, double y, double t) const = 0;  ///< C
   virtual double diffusivity(double x, double y) const = 0;              ///< d [m²/s]
   virtual double source(double, double, double) const { return 0; }      ///< Q at (x, y, t) [C/s]
+  double residual(const PlaneWindow&) const override;
 
  protected:
-  virtual double size() const = 0;  ///< natural size of C
+  virtual bool walled() const { return false; }  ///< no flux at x = width and y = height either
+  virtual bool radial() const { return false; }  ///< the radial reading
+  virtual double size() const = 0;               ///< natural size of C
 };
 
 /// M units set free at the corner of a quarter plane at t = 0: C = M/(πdt) exp(−r²/4dt). t > 0.
@@ -75,6 +78,7 @@ class CosineMode final : public DiffusionSolution {
   double decay_rate() const;  ///< d π² (m²/a² + n²/b²) [1/s]
 
  private:
+  bool walled() const override { return true; }
   double size() const override;  ///< |A|
   Parameters p_;
 };
@@ -99,6 +103,7 @@ class ManufacturedVariable final : public DiffusionSolution {
   double source(double x, double y, double t) const override;
 
  private:
+  bool walled() const override { return true; }
   double size() const override;  ///< |A|
   Parameters p_;
 };
@@ -118,6 +123,7 @@ class RadialPulse final : public DiffusionSolution {
   double diffusivity(double, double) const override { return p_.diffusivity; }
 
  private:
+  bool radial() const override { return true; }
   double size() const override;
   Parameters p_;
 };

@@ -334,4 +334,10 @@ FrontResidual self_test(const PlaneSolution& solution, const FaceFront::Paramete
   return SelfTest(solution, p, t_begin, t_end).run();
 }
 
+double FaceFront::residual(const PlaneWindow& window) const {
+  const FrontResidual found = self_test(*this, p_, window.from, window.to);
+  const bool edge = p_.profile == FrontProfile::rising;
+  return edge && found.balance < 1 ? std::hypot(found.face, found.moment) : found.worst();
+}
+
 }  // namespace diptych::analytic

@@ -62,6 +62,8 @@ class FaceFront final : public PlaneSolution {
   std::array<double, 3> at(PlaneQuantity, double x, double y, double t) const override;
   double scale(PlaneQuantity) const override;                                  ///< |value|
   double reach(double t, double part) const { return front_.reach(t, part); }  ///< beyond it |C| < part |value| [m]
+  /// Of a profile with an edge without the balance, whose differences reach across it: its moment and its face tell.
+  double residual(const PlaneWindow&) const override;
   const DiffusionFront& front() const { return front_; }
   const Parameters& parameters() const { return p_; }
 

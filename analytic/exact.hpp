@@ -2,7 +2,9 @@
 // self-test by residual. Nothing here knows a solver or a material: an oracle that calls what it judges is no oracle.
 #pragma once
 
+#include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,6 +47,22 @@ class ExactSolution {
   virtual double scale(Quantity) const = 0;
   /// Whether this solution speaks of the quantity at all.
   virtual bool gives(Quantity) const { return true; }
+  /// The largest violation of the problem that this solution claims to solve, found by its own test over 0 < t ≤ t_end
+  /// and longer where that is too short to see all of it: 1 is a wrong solution, round-off a right one, and what is
+  /// not finite is not to be trusted. There is no default: a solution without a test of its own judges nothing.
+  virtual double residual(double t_end) const = 0;
+
+  /// Bars `left` and `left` + 1 touch over [from, to] [s].
+  struct Contact {
+    std::size_t left;
+    double from, to;
+  };
+  /// By start, then from left to right; nothing where the solution knows no contact of bars.
+  virtual std::optional<std::vector<Contact>> contact_times() const { return {}; }
+  /// ∫∫ σ dε_p of all bars up to t [J/m²]; nothing where the solution knows no plastic flow.
+  virtual std::optional<double> work_of_flow(double) const { return {}; }
+  /// By how much the material next to a struck face is ahead of the face itself [m].
+  virtual double strain_of_face(double) const { return 0; }
 };
 
 /// What is asked of a solution, said without one, so that a wrong solution can be told from a right one.

@@ -16,6 +16,13 @@ constexpr std::size_t components(PlaneQuantity quantity) {
   return quantity == PlaneQuantity::concentration ? 1 : quantity == PlaneQuantity::stress ? 3 : 2;
 }
 
+/// Where and when a solution is compared with a run.
+struct PlaneWindow {
+  double width, height;  ///< 0 ≤ x ≤ width, 0 ≤ y ≤ height [m]
+  double core;           ///< radius around the origin that is left out [m]
+  double from, to;       ///< first and last time [s], > 0
+};
+
 class PlaneSolution {
  public:
   virtual ~PlaneSolution() = default;
@@ -28,6 +35,10 @@ class PlaneSolution {
   virtual std::array<double, 3> at(PlaneQuantity, double x, double y, double t) const = 0;
   /// Natural size of a quantity, > 0, by which errors are divided. Throws std::invalid_argument where it is not given.
   virtual double scale(PlaneQuantity) const = 0;
+  /// The largest violation of the problem that this solution claims to solve, found by its own test: 1 is a wrong
+  /// solution, round-off a right one, and what is not finite is not to be trusted. There is no default: a solution
+  /// without a test of its own judges nothing.
+  virtual double residual(const PlaneWindow&) const = 0;
 };
 
 /// Isotropic linear elasticity in the plane, σ = λ (tr ε) 1 + 2μ ε with the trace in the plane.

@@ -44,34 +44,6 @@ PlaneWave shear(const RectangleMode& p) {
   return {{k, 0}, {0, p.amplitude}, k * p.medium.shear_speed(), {true, false}, p.from_rest};
 }
 
-/// The problem of which a mode is the solution, but for its sides.
-PlaneProblem problem(const PlaneMode& mode) {
-  const auto field = [mode = PlaneWave(mode.wave())](bool velocity) {
-    // said again here, so that the mode is judged by something else than itself
-    return [=](double x, double y) {
-      const auto [kx, ky] = mode.wave_number;
-      const double ux = mode.amplitude[0] * (mode.rollers[0] ? std::sin(kx * x) : std::cos(kx * x)) *
-                        (mode.rollers[1] ? std::cos(ky * y) : std::sin(ky * y));
-      const double uy = mode.amplitude[1] * (mode.rollers[0] ? std::cos(kx * x) : std::sin(kx * x)) *
-                        (mode.rollers[1] ? std::sin(ky * y) : std::cos(ky * y));
-      const double factor = velocity ? mode.frequency : 1;
-      return std::array<double, 2>{factor * ux, factor * uy};
-    };
-  };
-  PlaneProblem p{};
-  p.medium = mode.medium();
-  p.width = mode.width();
-  p.height = mode.height();
-  if (mode.wave().from_rest) {
-    p.initial_displacement = field(false);
-  } else {
-    p.initial_velocity = field(true);
-  }
-  p.displacement_scale = mode.scale(PlaneQuantity::displacement);
-  p.smooth_length = 1 / std::max(mode.wave().wave_number[0], mode.wave().wave_number[1]);
-  return p;
-}
-
 }  // namespace
 
 PlaneMode::PlaneMode(const PlaneMedium& medium, double width, double height, const PlaneWave& wave)
@@ -130,35 +102,61 @@ double PlaneMode::scale(PlaneQuantity quantity) const {
   throw std::invalid_argument(name() + ": this quantity is not given");
 }
 
+PlaneProblem PlaneMode::problem() const {
+  const auto field = [mode = wave_](bool velocity) {
+    // said again here, so that the mode is judged by something else than itself
+    return [=](double x, double y) {
+      const auto [kx, ky] = mode.wave_number;
+      const double ux = mode.amplitude[0] * (mode.rollers[0] ? std::sin(kx * x) : std::cos(kx * x)) *
+                        (mode.rollers[1] ? std::cos(ky * y) : std::sin(ky * y));
+      const double uy = mode.amplitude[1] * (mode.rollers[0] ? std::cos(kx * x) : std::sin(kx * x)) *
+                        (mode.rollers[1] ? std::sin(ky * y) : std::cos(ky * y));
+      const double factor = velocity ? mode.frequency : 1;
+      return std::array<double, 2>{factor * ux, factor * uy};
+    };
+  };
+  PlaneProblem p{};
+  p.medium = medium_;
+  p.width = width_;
+  p.height = height_;
+  if (wave_.from_rest) {
+    p.initial_displacement = field(false);
+  } else {
+    p.initial_velocity = field(true);
+  }
+  p.displacement_scale = scale(PlaneQuantity::displacement);
+  p.smooth_length = 1 / std::max(wave_.wave_number[0], wave_.wave_number[1]);
+  pose_sides(p);
+  return p;
+}
+
 LameMode::LameMode(const Parameters& p) : PlaneMode(p.medium, p.side, p.side, lame(p)) {}
 RollerMode::RollerMode(const Parameters& p) : PlaneMode(p.medium, p.side, p.side, roller(p)) {}
 StandingPWave::StandingPWave(const Parameters& p) : PlaneMode(p.medium, p.width, p.height, pressure(p)) {}
 StandingSWave::StandingSWave(const Parameters& p) : PlaneMode(p.medium, p.width, p.height, shear(p)) {}
 
-PlaneProblem lame_problem(const SquareMode& parameters) { return problem(LameMode(parameters)); }
-
-PlaneProblem roller_problem(const SquareMode& parameters) {
-  auto p = problem(RollerMode(parameters));
+void RollerMode::pose_sides(PlaneProblem& p) const {
   p.left.support = p.right.support = p.bottom.support = p.top.support = PlaneProblem::Support::roller;
-  return p;
 }
 
-PlaneProblem p_wave_problem(const RectangleMode& parameters) {
-  auto p = problem(StandingPWave(parameters));
+void StandingPWave::pose_sides(PlaneProblem& p) const {
   p.left.support = p.right.support = p.bottom.support = p.top.support = PlaneProblem::Support::roller;
-  return p;
 }
 
-PlaneProblem s_wave_problem(const RectangleMode& parameters) {
-  auto p = problem(StandingSWave(parameters));
+void StandingSWave::pose_sides(PlaneProblem& p) const {
   p.left.support = p.right.support = PlaneProblem::Support::roller;
-  const double k = parameters.mode * pi / parameters.width, omega = k * parameters.medium.shear_speed();
+  const double k = wave().wave_number[0], omega = k * medium().shear_speed(), amplitude = wave().amplitude[1];
+  const bool from_rest = wave().from_rest;
   p.bottom.support = p.top.support = PlaneProblem::Support::driven;
   p.bottom.velocity = p.top.velocity = [=](double x, double, double t) {
-    const double rate = parameters.from_rest ? -std::sin(omega * t) : std::cos(omega * t);
-    return std::array<double, 2>{0, parameters.amplitude * omega * rate * std::cos(k * x)};
+    const double rate = from_rest ? -std::sin(omega * t) : std::cos(omega * t);
+    return std::array<double, 2>{0, amplitude * omega * rate * std::cos(k * x)};
   };
-  return p;
 }
+
+PlaneProblem lame_problem(const SquareMode& parameters) { return LameMode(parameters).problem(); }
+PlaneProblem roller_problem(const SquareMode& parameters) { return RollerMode(parameters).problem(); }
+PlaneProblem p_wave_problem(const RectangleMode& parameters) { return StandingPWave(parameters).problem(); }
+PlaneProblem s_wave_problem(const RectangleMode& parameters) { return StandingSWave(parameters).problem(); }
 
 }  // namespace diptych::analytic

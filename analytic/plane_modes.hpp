@@ -26,9 +26,15 @@ class PlaneMode : public PlaneSolution {
   const PlaneWave& wave() const { return wave_; }
   double width() const { return width_; }    ///< [m]
   double height() const { return height_; }  ///< [m]
+  /// What it is the solution of: said anew, so that the mode is judged by something else than itself.
+  PlaneProblem problem() const;
+  double residual(const PlaneWindow& window) const override { return self_test(*this, problem(), window.to).worst(); }
 
  protected:
   PlaneMode(const PlaneMedium&, double width, double height, const PlaneWave&);
+
+  /// What its sides are: the rest is posed for all modes alike.
+  virtual void pose_sides(PlaneProblem&) const {}
 
  private:
   PlaneMedium medium_;
@@ -59,6 +65,9 @@ class RollerMode final : public PlaneMode {
   using Parameters = SquareMode;
   explicit RollerMode(const Parameters&);
   std::string name() const override { return "roller-mode"; }
+
+ private:
+  void pose_sides(PlaneProblem&) const override;
 };
 
 struct RectangleMode {
@@ -75,6 +84,9 @@ class StandingPWave final : public PlaneMode {
   using Parameters = RectangleMode;
   explicit StandingPWave(const Parameters&);
   std::string name() const override { return "standing-p-wave"; }
+
+ private:
+  void pose_sides(PlaneProblem&) const override;
 };
 
 /// Shear waves across a rectangle: u_y = A cos(kx), ω = k c_s. The left and right sides may be free or on rollers that
@@ -84,6 +96,9 @@ class StandingSWave final : public PlaneMode {
   using Parameters = RectangleMode;
   explicit StandingSWave(const Parameters&);
   std::string name() const override { return "standing-s-wave"; }
+
+ private:
+  void pose_sides(PlaneProblem&) const override;
 };
 
 /// The equations that these parameters pose, for the self-test of any solution of them.

@@ -258,6 +258,8 @@ Residual self_test(const ExactSolution& solution, const PlasticImpact::Parameter
   return SelfTest(solution, parameters, t_end).run();
 }
 
+double PlasticImpact::residual(double t_end) const { return self_test(*this, t_end).worst(); }
+
 Residual self_test(const PlasticImpact& impact, double t_end) { return self_test(impact, impact.parameters(), t_end); }
 
 }  // namespace diptych::analytic

@@ -46,6 +46,13 @@ class PlasticImpact final : public ExactSolution {
   /// Stress: the largest |σ|, Y or ρcV if that is less; velocity: V; displacement: VL/c.
   double scale(Quantity) const override;
 
+  double residual(double t_end) const override;
+  std::optional<std::vector<Contact>> contact_times() const override {
+    return std::vector<Contact>{{0, contact_begin(), release_time()}};
+  }
+  std::optional<double> work_of_flow(double t) const override { return plastic_work(t); }
+  double strain_of_face(double t) const override { return plastic_strain(t); }
+
   double wave_speed() const { return c_; }
   double contact_begin() const;  ///< gap/(2V) [s]
   /// When the bars part [s]. As the force ceases, or not, 2L/c earlier where V̂ is an even number, round-off then

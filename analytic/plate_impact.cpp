@@ -270,4 +270,6 @@ ImpactResidual self_test(const PlaneSolution& solution, const PlateImpact::Param
   return SelfTest(solution, p, t_end).run();
 }
 
+double PlateImpact::residual(const PlaneWindow& window) const { return self_test(*this, p_, window.to).worst(); }
+
 }  // namespace diptych::analytic

@@ -39,6 +39,7 @@ class PlateImpact final : public PlaneSolution {
   double release(double x) const;
   /// The two fronts, ascending in position.
   std::vector<Front> fronts(double t) const;
+  double residual(const PlaneWindow&) const override;
   const Parameters& parameters() const { return p_; }
 
  private:

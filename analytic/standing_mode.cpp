@@ -71,6 +71,8 @@ BarProblem problem(const StandingMode::Parameters& p) {
           1 / k};
 }
 
+double StandingMode::residual(double t_end) const { return self_test(*this, t_end).worst(); }
+
 Residual self_test(const StandingMode& mode, double t_end) {
   return self_test(mode, problem(mode.parameters()), t_end);
 }

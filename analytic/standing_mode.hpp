@@ -21,6 +21,7 @@ class StandingMode final : public ExactSolution {
   double at(Quantity, double x, double t) const override;
   std::vector<Front> fronts(double) const override { return {}; }
   double scale(Quantity) const override;  ///< the amplitude of the quantity
+  double residual(double t_end) const override;
   double wave_number() const;
   double wave_speed() const;
   const Parameters& parameters() const { return p_; }

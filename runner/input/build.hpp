@@ -59,7 +59,10 @@ class CloserBars final : public analytic::ExactSolution {
   double at(analytic::Quantity q, double x, double t) const override { return solution_->at(q, x - shift_at(x), t); }
   std::vector<analytic::Front> fronts(double t) const override;
   double scale(analytic::Quantity q) const override { return solution_->scale(q); }
-  const analytic::ExactSolution& inner() const { return *solution_; }
+  double residual(double t_end) const override { return solution_->residual(t_end); }
+  std::optional<std::vector<Contact>> contact_times() const override { return solution_->contact_times(); }
+  std::optional<double> work_of_flow(double t) const override { return solution_->work_of_flow(t); }
+  double strain_of_face(double t) const override { return solution_->strain_of_face(t); }
 
  private:
   double shift_at(double x) const;

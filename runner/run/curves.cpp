@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analytic/plastic_impact.hpp"
 #include "runner/input/build.hpp"
-#include "runner/run/outcomes.hpp"
 
 namespace diptych::runner {
 namespace {
@@ -103,7 +101,6 @@ std::vector<long> steps_of_motion(const Case& c, const Leaf& leaf, const Steppin
 void trace(const std::vector<Snapshot>& snapshots, const Scene& scene, const analytic::ExactSolution* exact,
            reports::Run& run) {
   constexpr int parts = 4;
-  const auto* plastic = dynamic_cast<const analytic::PlasticImpact*>(inner(exact));
   for (std::size_t b = 0; b < scene.bars.size(); ++b) {
     for (int k = 0; k <= parts; ++k) {
       if (!run.paths.x.empty()) {
@@ -122,7 +119,7 @@ void trace(const std::vector<Snapshot>& snapshots, const Scene& scene, const ana
         const double x = std::clamp(u.x[i], scene.bars[b].begin + inside, scene.bars[b].end() - inside);
         double place = x + exact->at(Quantity::displacement, x, u.time);
         // A struck face without hardening stands still while what is next to it flows into it.
-        if (plastic && k == (b == 0 ? parts : 0)) place += (b == 0 ? -1 : 1) * plastic->plastic_strain(u.time);
+        if (k == (b == 0 ? parts : 0)) place += (b == 0 ? -1 : 1) * exact->strain_of_face(u.time);
         run.exact_paths.x.push_back(place);
         run.exact_paths.y.push_back(u.time);
       }

@@ -90,4 +90,10 @@ std::string why_invalid(const Case& c, const std::vector<std::string>& active, c
   return {};
 }
 
+std::string doubt(double residual) {
+  constexpr double allowed = 1e-4;  // room for the round-off of steep ramps; a wrong solution stands at 1
+  if (residual <= allowed) return {};
+  return fmt::format("the exact solution fails its own test: residual {:.3g}, allowed {:g}", residual, allowed);
+}
+
 }  // namespace diptych::runner

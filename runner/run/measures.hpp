@@ -53,4 +53,7 @@ double bisect_limit(const std::function<bool(double courant)>& stable, double pr
 std::string why_invalid(const Case&, const std::vector<std::string>& active, const std::vector<std::string>& declared,
                         const reports::Run&);
 
+/// Why an exact solution whose own test finds this residual is not to be trusted, or nothing. NaN is not.
+std::string doubt(double residual);
+
 }  // namespace diptych::runner

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <optional>
 
-#include "analytic/bar_impact.hpp"
-#include "analytic/plastic_impact.hpp"
 #include "runner/input/build.hpp"
 
 namespace diptych::runner {
@@ -27,15 +25,9 @@ double mean_at_points(const Field& field, const Span& bar) {
 
 }  // namespace
 
-const analytic::ExactSolution* inner(const analytic::ExactSolution* exact) {
-  const auto* closer = dynamic_cast<const CloserBars*>(exact);
-  return closer ? &closer->inner() : exact;
-}
-
 void measure_outcomes(const Scene& scene, const std::vector<Span>& bars, const Record& record, double time_step,
                       const analytic::ExactSolution* exact, reports::Run& run) {
-  const auto* impact = dynamic_cast<const analytic::BarImpact*>(inner(exact));
-  const auto* plastic = dynamic_cast<const analytic::PlasticImpact*>(inner(exact));
+  const auto contacts = exact ? exact->contact_times() : std::nullopt;
   const auto tell = [&](const std::string& name, double value, std::optional<double> predicted, double scale) {
     if (!std::isfinite(value)) return;
     run.measures[name] = value;
@@ -49,16 +41,12 @@ void measure_outcomes(const Scene& scene, const std::vector<Span>& bars, const R
     for (const Touch& touch : record.touches)
       if (touch.left == pair) end = touch.to;
     std::optional<double> exact_begin, exact_end;
-    if (impact) {
-      for (const auto& contact : impact->contacts()) {
+    if (contacts) {
+      for (const auto& contact : *contacts) {
         if (contact.left != pair) continue;
         if (!exact_begin) exact_begin = contact.from;
         exact_end = contact.to;
       }
-    }
-    if (plastic) {
-      exact_begin = plastic->contact_begin();
-      exact_end = plastic->release_time();
     }
     std::optional<double> exact_duration;
     if (exact_begin) exact_duration = *exact_end - *exact_begin;
@@ -75,21 +63,19 @@ void measure_outcomes(const Scene& scene, const std::vector<Span>& bars, const R
       const Bar& bar = scene.bars[b];
       start[b] = bar.initial_velocity ? bar.initial_velocity(bar.begin + bar.length / 2) : 0;
       now[b] = mean_at_points(v.of_bar(b), bars[b]);
-      if (impact || plastic) exact_now[b] = mean_between_fronts(*exact, Quantity::velocity, bars[b], v.time);
+      if (contacts) exact_now[b] = mean_between_fronts(*exact, Quantity::velocity, bars[b], v.time);
     }
     const double closing = start[0] - start[1];
     if (closing > 0) {
       std::optional<double> predicted;
-      if (impact || plastic) predicted = (exact_now[1] - exact_now[0]) / closing;
+      if (contacts) predicted = (exact_now[1] - exact_now[0]) / closing;
       tell("contact.restitution", (now[1] - now[0]) / closing, predicted, 1);
     }
   }
   if (record.sums.lines > 0 && record.sums.last.dissipated > 0) {
     // The ledger's last line holds what was dissipated before the last step.
     const double time = record.time - time_step, last = std::max(time, 0.0);
-    std::optional<double> predicted;
-    if (impact) predicted = impact->plastic_work(last);
-    if (plastic) predicted = plastic->plastic_work(last);
+    const auto predicted = exact ? exact->work_of_flow(last) : std::nullopt;
     tell("plastic.work", record.sums.last.dissipated, predicted, predicted && *predicted > 0 ? *predicted : 1);
   }
 }

@@ -11,9 +11,6 @@
 
 namespace diptych::runner {
 
-/// The solution itself, without what moved its bars together; null for null.
-const analytic::ExactSolution* inner(const analytic::ExactSolution*);
-
 /// Contact and release of the first two bars to touch, restitution, and plastic work, each as a measure of the run
 /// beside what the exact solution says (".predicted") and how far it is off (".error": of times in durations of
 /// contact, of plastic work in itself). What did not happen in both has no measure, and a gate on it is INVALID.

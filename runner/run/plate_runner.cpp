@@ -383,43 +383,10 @@ reports::Run run_plate(const Case& whole, const Leaf& leaf, const TimeStep& step
 }
 
 std::string doubt_plane_exact(const Case& c) {
-  double worst = 0;
-  const PlateExact& e = c.plate->exact;
   const auto exact = make_plane_exact(c);
-  if (const auto* mode = dynamic_cast<const analytic::PlaneMode*>(exact.get())) {
-    const analytic::SquareMode square{medium_of(*c.plate), c.plate->width, e.mode, e.amplitude, e.from_rest};
-    const analytic::RectangleMode strip{square.medium, c.plate->width, c.plate->height,
-                                        e.mode,        e.amplitude,    e.from_rest};
-    worst = analytic::self_test(*mode,
-                                e.solution == "lame-mode"     ? analytic::lame_problem(square)
-                                : e.solution == "roller-mode" ? analytic::roller_problem(square)
-                                : e.solution == "p-wave"      ? analytic::p_wave_problem(strip)
-                                                              : analytic::s_wave_problem(strip),
-                                c.times.back())
-                .worst();
-  }
-  if (const auto* source = dynamic_cast<const analytic::CornerSource*>(exact.get())) {
-    const double d = source->diffusivity(0, 0), q = c.plate->diffusion->corner_rate;
-    analytic::DiffusionProblem problem{};
-    problem.width = c.plate->width;
-    problem.height = c.plate->height;
-    problem.core = e.core;
-    problem.diffusivity = [=](double, double) { return d; };
-    problem.scale = std::abs(q) / d;
-    problem.smooth_length = std::max(e.core, 0.05 * c.plate->width);
-    worst = analytic::self_test(*source, problem, c.times.front(), c.times.back()).worst();
-  }
-  if (const auto* impact = dynamic_cast<const analytic::PlateImpact*>(exact.get()))
-    worst = analytic::self_test(*impact, impact->parameters(), c.times.back()).worst();
-  if (const auto* front = dynamic_cast<const analytic::FaceFront*>(exact.get())) {
-    const auto found = analytic::self_test(*front, front->parameters(), c.times.front(), c.times.back());
-    // Differences reach across the edge of a front that has one; its moment and its face tell nevertheless.
-    const bool edge = front->parameters().profile == analytic::FrontProfile::rising;
-    worst = edge && found.balance < 1 ? std::hypot(found.face, found.moment) : found.worst();
-  }
-  constexpr double allowed = 1e-4;
-  if (worst <= allowed) return {};
-  return fmt::format("the exact solution fails its own test: residual {:.3g}, allowed {:g}", worst, allowed);
+  const PlateSpec& plate = *c.plate;
+  return exact ? doubt(exact->residual({plate.width, plate.height, plate.exact.core, c.times.front(), c.times.back()}))
+               : "";
 }
 
 }  // namespace diptych::runner

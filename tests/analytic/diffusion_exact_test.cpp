@@ -21,6 +21,7 @@ class Spoiled final : public DiffusionSolution {
   using Field = std::function<double(double, double, double)>;
   explicit Spoiled(Field field) : field_(std::move(field)) {}
   std::string name() const override { return "spoiled"; }
+  double residual(const PlaneWindow&) const override { return std::nan(""); }
   double concentration(double x, double y, double t) const override { return field_(x, y, t); }
   double diffusivity(double, double) const override { return 1; }
 

@@ -28,6 +28,7 @@ class Spoiled final : public PlaneSolution {
  public:
   explicit Spoiled(At at) : at_(std::move(at)) {}
   std::string name() const override { return "spoiled"; }
+  double residual(const PlaneWindow&) const override { return std::nan(""); }
   bool gives(PlaneQuantity) const override { return true; }
   std::array<double, 3> at(PlaneQuantity, double x, double y, double t) const override { return {at_(x, y, t), 0, 0}; }
   double scale(PlaneQuantity) const override { return 1; }

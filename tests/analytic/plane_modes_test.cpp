@@ -22,6 +22,7 @@ class Spoiled final : public PlaneSolution {
  public:
   explicit Spoiled(At at) : at_(std::move(at)) {}
   std::string name() const override { return "spoiled"; }
+  double residual(const PlaneWindow&) const override { return std::nan(""); }
   bool gives(Quantity) const override { return true; }
   std::array<double, 3> at(Quantity q, double x, double y, double t) const override { return at_(q, x, y, t); }
   double scale(Quantity) const override { return 1; }

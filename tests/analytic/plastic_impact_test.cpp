@@ -57,6 +57,7 @@ class Spoiled final : public ExactSolution {
   using At = std::function<double(Quantity, double, double)>;
   Spoiled(PlasticImpact two, At at) : two_(std::move(two)), at_(std::move(at)) {}
   std::string name() const override { return "spoiled"; }
+  double residual(double) const override { return std::nan(""); }
   double at(Quantity quantity, double x, double t) const override { return at_(quantity, x, t); }
   std::vector<Front> fronts(double t) const override {
     return spoil_fronts ? spoil_fronts(two_.fronts(t)) : two_.fronts(t);

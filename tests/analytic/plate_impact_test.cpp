@@ -31,6 +31,7 @@ class Spoiled final : public PlaneSolution {
  public:
   explicit Spoiled(At at) : at_(std::move(at)) {}
   std::string name() const override { return "spoiled"; }
+  double residual(const PlaneWindow&) const override { return std::nan(""); }
   bool gives(PlaneQuantity) const override { return true; }
   std::array<double, 3> at(PlaneQuantity q, double x, double y, double t) const override { return at_(q, x, y, t); }
   double scale(PlaneQuantity) const override { return 1; }

@@ -21,6 +21,7 @@ class Spoiled final : public ExactSolution {
   using At = std::function<double(Quantity, double, double)>;
   Spoiled(StandingMode mode, At at) : mode_(mode), at_(std::move(at)) {}
   std::string name() const override { return "spoiled"; }
+  double residual(double) const override { return std::nan(""); }
   double at(Quantity quantity, double x, double t) const override { return at_(quantity, x, t); }
   std::vector<Front> fronts(double) const override { return fronts_; }
   double scale(Quantity quantity) const override { return mode_.scale(quantity); }

@@ -16,6 +16,7 @@ class Step final : public analytic::ExactSolution {
  public:
   explicit Step(double front) : front_(front) {}
   std::string name() const override { return "step"; }
+  double residual(double) const override { return 0; }
   double at(Quantity, double x, double) const override { return x < front_ ? 1 : 0; }
   std::vector<analytic::Front> fronts(double) const override { return {{front_, 1, 1, 0}}; }
   double scale(Quantity) const override { return 1; }
@@ -27,6 +28,7 @@ class Step final : public analytic::ExactSolution {
 class Line final : public analytic::ExactSolution {
  public:
   std::string name() const override { return "line"; }
+  double residual(double) const override { return 0; }
   double at(Quantity, double x, double) const override { return 2 * x; }
   std::vector<analytic::Front> fronts(double) const override { return {}; }
   double scale(Quantity) const override { return 1; }

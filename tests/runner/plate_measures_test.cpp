@@ -33,6 +33,7 @@ class Given final : public analytic::PlaneSolution {
   explicit Given(std::array<double, 3> value, double size = 1, bool slope = false)
       : value_(value), size_(size), slope_(slope) {}
   std::string name() const override { return "given"; }
+  double residual(const analytic::PlaneWindow&) const override { return 0; }
   bool gives(PlaneQuantity) const override { return true; }
   std::array<double, 3> at(PlaneQuantity, double x, double, double t) const override {
     return {slope_ ? x + t : value_[0], value_[1], value_[2]};

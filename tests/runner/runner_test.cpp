@@ -3,11 +3,13 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <sstream>
 
 #include "runner/app/catalogue.hpp"
 #include "runner/app/provenance.hpp"
 #include "runner/input/case_file.hpp"
+#include "runner/run/measures.hpp"
 
 using namespace diptych;
 using namespace diptych::runner;
@@ -176,6 +178,13 @@ BOOST_AUTO_TEST_CASE(selectors_find_ids_patterns_and_single_gates) {
   });
   BOOST_CHECK_THROW(select_cases({"bar.step.fixed-free/enrgy"}), InputError);
   BOOST_CHECK_THROW(select_cases({"nowhere.toml"}), InputError);
+}
+
+BOOST_AUTO_TEST_CASE(a_solution_is_trusted_by_its_own_test_alone) {
+  BOOST_TEST(doubt(1e-5) == "");
+  BOOST_TEST(doubt(1e-3).find("fails its own test") != std::string::npos);
+  for (const double untested : {std::nan(""), std::numeric_limits<double>::infinity()})
+    BOOST_TEST(doubt(untested).find("fails its own test") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
