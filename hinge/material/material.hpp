@@ -29,7 +29,8 @@ struct Elastic {
     double stress = 0;  ///< σ [Pa], tension positive
   };
 
-  static constexpr const char* feature = "elastic";
+  static constexpr const char* model = "elastic";    ///< what case files call it
+  static constexpr const char* feature = "elastic";  ///< what a run with it reports
   static constexpr bool yields = false;
   double elastic_wave_speed() const { return std::sqrt(youngs_modulus / density); }
   double stored(const State& state) const { return state.stress * state.stress / (2 * youngs_modulus); }
@@ -54,6 +55,7 @@ struct Hardening {
     double hardened = 0;  ///< rise of the yield stress since the start [Pa], ≥ 0
   };
 
+  static constexpr const char* model = "hardening";
   static constexpr const char* feature = "plasticity";
   static constexpr bool yields = true;
   double elastic_wave_speed() const { return std::sqrt(youngs_modulus / density); }
@@ -80,6 +82,12 @@ struct Hardening {
 
 using Material = std::variant<Elastic, Hardening>;
 
+inline const char* model(const Material& m) {
+  return std::visit([](const auto& law) { return law.model; }, m);
+}
+inline const char* feature(const Material& m) {
+  return std::visit([](const auto& law) { return law.feature; }, m);
+}
 inline double youngs_modulus(const Material& m) {
   return std::visit([](const auto& law) { return law.youngs_modulus; }, m);
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "analytic/bar_solutions.hpp"
 #include "runner/input/case_checks.hpp"
 #include "runner/input/case_tables.hpp"
 #include "runner/input/toml_table.hpp"
@@ -185,13 +186,14 @@ void read_initial(Table& t, Case& c) {
 
 void read_exact(Table& t, Case& c) {
   ExactSpec& exact = c.exact;
-  exact.solution = t.need("solution", one_of({"bar-wave", "standing-mode", "impact", "plastic-impact", "expressions"},
-                                             "without an exact solution leave out the whole table [exact]"));
+  Names solutions;
+  for (const analytic::BarSolution& row : analytic::bar_solutions()) solutions.push_back(row.name);
+  solutions.push_back("expressions");
+  exact.solution = t.need("solution", one_of(solutions, "without an exact solution leave out the whole table [exact]"));
   const auto of = [&](const char* key, const char* owner) {
     return t.applies(key, "solution", exact.solution, {owner});
   };
-  if (of("mode", "standing-mode")) exact.mode = t.need("mode", whole(1, 1000));
-  if (of("amplitude", "standing-mode")) exact.amplitude = t.need("amplitude", not_zero());
+  exact.parameters = read_solution_parameters(t, exact.solution, analytic::bar_solutions());
   const auto formula_of = [&](const char* key) {
     return of(key, "expressions") ? read_expression(t, key, {"x", "t"}, c) : "";
   };

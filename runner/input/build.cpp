@@ -7,11 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "analytic/bar_impact.hpp"
-#include "analytic/bar_wave.hpp"
 #include "analytic/grid_contact.hpp"
-#include "analytic/plastic_impact.hpp"
-#include "analytic/standing_mode.hpp"
 #include "runner/input/constants.hpp"
 #include "runner/input/expression.hpp"
 #include "runner/input/histories.hpp"
@@ -40,9 +36,9 @@ Load make_load(const Case& c, const LoadSpec& spec, int cells) {
 /// Initial velocity of a standing mode, as a user would write it: not taken from the oracle that judges the run.
 std::function<double(double)> mode_velocity(const Case& c) {
   const bool left = c.left == Support::fixed, right = c.right == Support::fixed;
-  const double half_waves = left == right ? c.exact.mode : c.exact.mode - 0.5;
+  const double half_waves = left == right ? c.exact.parameters.at("mode") : c.exact.parameters.at("mode") - 0.5;
   const double k = half_waves * std::acos(-1.0) / c.first().length;
-  const double amplitude = c.exact.amplitude * k * material::wave_speed(c.first().material);
+  const double amplitude = c.exact.parameters.at("amplitude") * k * material::wave_speed(c.first().material);
   return [=](double x) { return amplitude * (left ? std::sin(k * x) : std::cos(k * x)); };
 }
 
@@ -109,35 +105,6 @@ double standoff(const Case& c, const Leaf& leaf, std::size_t bar) {
   const double time = analytic::grid_contact_time(
       {end - (1 - leaf.particles.back()) * h, end + gap + leaf.particles.front() * h, before, after, h});
   return std::max(0.0, gap - (before - after) * time);
-}
-
-std::unique_ptr<analytic::ExactSolution> make_impact(const Case& c, const Leaf& leaf) {
-  std::vector<double> begins = begins_of(c, leaf.cells), shifts(begins.size());
-  for (std::size_t b = 1; b < begins.size(); ++b) shifts[b] = shifts[b - 1] + standoff(c, leaf, b);
-  const double end = instant(c, leaf, c.times.back());
-  std::unique_ptr<analytic::ExactSolution> solution;
-  if (c.exact.solution == "impact") {
-    const bool bonded = leaf.method == "fem" && c.contact == Contact::bonded;
-    analytic::BarImpact::Parameters p{{}, bar_end(c, End::left), bar_end(c, End::right), 0, bonded};
-    for (std::size_t b = 0; b < c.bars.size(); ++b) {
-      const material::Material& m = c.bars[b].material;
-      analytic::ImpactBar bar{begins[b] - shifts[b], c.bars[b].length, material::youngs_modulus(m),
-                              material::density(m), velocity_of(c, b)};
-      if (const auto* law = std::get_if<material::Hardening>(&m)) {
-        bar.yield_stress = law->yield_stress;
-        bar.tangent_modulus = law->tangent_modulus;
-      }
-      p.bars.push_back(bar);
-    }
-    p.until = end * (1 + 1e-9) + time_unit(c, "L/c");  // fields live up to half a step after the last sample
-    solution = std::make_unique<analytic::BarImpact>(std::move(p));
-  } else {
-    const auto& law = std::get<material::Hardening>(c.first().material);
-    solution = std::make_unique<analytic::PlasticImpact>(analytic::PlasticImpact::Parameters{
-        law.youngs_modulus, law.density, law.yield_stress, c.first().length, begins[1] - shifts[1] - c.first().length,
-        velocity_of(c, 0), velocity_of(c, 1)});
-  }
-  return std::make_unique<CloserBars>(std::move(solution), std::move(begins), std::move(shifts));
 }
 
 }  // namespace
@@ -255,19 +222,49 @@ Scene make_scene(const Case& c, int cells) {
   return scene;
 }
 
-std::unique_ptr<analytic::ExactSolution> make_exact(const Case& c, const Leaf& leaf) {
-  const double E = material::youngs_modulus(c.first().material), rho = material::density(c.first().material);
-  const std::string& name = c.exact.solution;
-  if (name == "none") return nullptr;
-  if (name == "impact" || name == "plastic-impact") return make_impact(c, leaf);
-  if (name == "expressions") return std::make_unique<ExpressionSolution>(c);
-  if (name == "standing-mode") {
-    return std::make_unique<analytic::StandingMode>(
-        analytic::StandingMode::Parameters{E, rho, c.first().length, c.left == Support::fixed,
-                                           c.right == Support::fixed, c.exact.mode, c.exact.amplitude});
+analytic::BarSetting bar_setting(const Case& c, int cells) {
+  analytic::BarSetting setting;
+  const std::vector<double> begins = begins_of(c, cells);
+  for (std::size_t b = 0; b < c.bars.size(); ++b) {
+    const material::Material& m = c.bars[b].material;
+    analytic::ImpactBar bar{begins[b], c.bars[b].length, material::youngs_modulus(m), material::density(m),
+                            velocity_of(c, b)};
+    if (const auto* law = std::get_if<material::Hardening>(&m)) {
+      bar.yield_stress = law->yield_stress;
+      bar.tangent_modulus = law->tangent_modulus;
+    }
+    setting.bars.push_back(bar);
+    setting.laws.push_back(material::model(m));
+    setting.flies = setting.flies || !c.bars[b].velocity.empty();
   }
-  return std::make_unique<analytic::BarWave>(
-      analytic::BarWave::Parameters{E, rho, c.first().length, bar_end(c, End::left), bar_end(c, End::right)});
+  setting.left = bar_end(c, End::left);
+  setting.right = bar_end(c, End::right);
+  setting.bonded = c.contact == Contact::bonded;
+  setting.parameters = c.exact.parameters;
+  setting.body_force = !c.body_force.empty();
+  setting.starts_otherwise = !c.initial_velocity.empty() || !c.initial_stress.empty();
+  for (const LoadSpec& load : c.loads) setting.loads.push_back(load.history);
+  return setting;
+}
+
+const analytic::BarSolution* solution_of(const Case& c) {
+  for (const analytic::BarSolution& row : analytic::bar_solutions())
+    if (row.name == c.exact.solution) return &row;
+  return nullptr;
+}
+
+std::unique_ptr<analytic::ExactSolution> make_exact(const Case& c, const Leaf& leaf) {
+  if (c.exact.solution == "expressions") return std::make_unique<ExpressionSolution>(c);
+  const analytic::BarSolution* row = solution_of(c);
+  if (!row) return nullptr;
+  analytic::BarSetting setting = bar_setting(c, leaf.cells);
+  if (!row->of_impact) return row->make(setting);
+  std::vector<double> begins = begins_of(c, leaf.cells), shifts(begins.size());
+  for (std::size_t b = 1; b < begins.size(); ++b) shifts[b] = shifts[b - 1] + standoff(c, leaf, b);
+  for (std::size_t b = 0; b < begins.size(); ++b) setting.bars[b].begin = begins[b] - shifts[b];
+  setting.until = instant(c, leaf, c.times.back());
+  setting.bonded = setting.bonded && leaf.method == "fem";
+  return std::make_unique<CloserBars>(row->make(setting), std::move(begins), std::move(shifts));
 }
 
 analytic::Discretisation discretisation(const Case& c, const Leaf& leaf, double courant) {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "analytic/bar_solutions.hpp"
 #include "analytic/discrete.hpp"
 #include "analytic/exact.hpp"
 #include "hinge/scene/scene.hpp"
@@ -42,6 +43,10 @@ Scene alone(const Scene&, std::size_t bar);
 
 /// The scene of one run. Holds expressions of its own: make one for each thread.
 Scene make_scene(const Case&, int cells);
+/// The bars as exact solutions see them, on a grid of `cells` in the first one; not yet moved together, see CloserBars.
+analytic::BarSetting bar_setting(const Case&, int cells);
+/// The row of the case's exact solution; null where it names none or gives expressions.
+const analytic::BarSolution* solution_of(const Case&);
 /// The exact solution for a run, or null where the case names none. MPM's bars touch as soon as they share a node of
 /// the grid, which rigid flight tells to the bit; the exact bars are then given the same distance to touch at.
 std::unique_ptr<analytic::ExactSolution> make_exact(const Case&, const Leaf&);

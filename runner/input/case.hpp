@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "analytic/solution_parameter.hpp"
 #include "hinge/scene/scene.hpp"
 #include "runner/input/plate_spec.hpp"
 
@@ -48,11 +49,8 @@ struct ViscositySpec {
 };
 
 struct ExactSpec {
-  /// "bar-wave" (steps, ramps and impulses on the ends, from rest), "standing-mode", "impact" (bars that fly, strike
-  /// and yield), "plastic-impact" (two equal bars without hardening), "expressions" or "none".
-  std::string solution = "none";
-  int mode = 1;                                ///< standing-mode
-  double amplitude = 0;                        ///< standing-mode [length]
+  std::string solution = "none";               ///< one of analytic::bar_solutions, "expressions" or "none"
+  analytic::SolutionParameters parameters;     ///< those of the solution
   std::string stress, velocity, displacement;  ///< expressions of x and t; an empty one is not compared
 };
 

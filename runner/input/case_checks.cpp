@@ -53,13 +53,12 @@ bool bar_is_known(const Case& c) {
 /// The features that the scene switches on, each with the key that does it.
 std::map<std::string, std::string> features_in_use(const Case& c) {
   std::map<std::string, std::string> used;
-  const bool elastic = std::all_of(c.bars.begin(), c.bars.end(), [](const BarSpec& bar) {
-    return std::holds_alternative<material::Elastic>(bar.material);
+  // Elastic bars beside others take the others' law, see material::laws.
+  const auto other = std::find_if(c.bars.begin(), c.bars.end(), [](const BarSpec& bar) {
+    return !std::holds_alternative<material::Elastic>(bar.material);
   });
-  if (elastic)
-    used["elastic"] = "material.model = \"elastic\"";
-  else
-    used["plasticity"] = "material.model = \"hardening\"";
+  const material::Material& law = (other == c.bars.end() ? c.first() : *other).material;
+  used[material::feature(law)] = fmt::format("material.model = \"{}\"", material::model(law));
   if (c.bars.size() > 1) used["contact"] = "a second [[bar]]";
   if (c.viscosity) used["viscosity"] = "[viscosity]";
   if (!c.body_force.empty()) used["body-force"] = "[body_force]";
@@ -424,72 +423,22 @@ bool any_mpm(const Case& c) {
   return std::any_of(runs.begin(), runs.end(), [](const Leaf& run) { return run.method != "fem"; });
 }
 
-void check_impact(const Place& place, const Case& c) {
-  const auto refuse = [&](bool present, const std::string& what, const std::string& allowed) {
-    if (present) place.say("found " + words(c.exact.solution) + " together with " + what + "; allowed: " + allowed);
-  };
-  const auto perfect = [](const BarSpec& bar) {
-    const auto* law = std::get_if<material::Hardening>(&bar.material);
-    return law && law->tangent_modulus == 0;
-  };
-  const bool any_perfect = std::any_of(c.bars.begin(), c.bars.end(), perfect);
-  refuse(!c.body_force.empty(), "[body_force]", "no body force");
-  bool meet = false;
-  for (const Case& variant : variants(c)) meet = meet || std::isfinite(contact_time(variant, fem_on(1)));
-  refuse(meet && !c.convected && any_mpm(c), "MPM, infinitesimal displacements and bars that fly",
-         "model.displacements = \"finite\": particles that stay in place never meet");
-  refuse(!c.initial_velocity.empty() || !c.initial_stress.empty(), "[initial]", "bars with one velocity each");
-  if (c.exact.solution == "impact") {
-    refuse(any_perfect, "E_t = 0",
-           "\"plastic-impact\": without hardening no front carries the plastic strain, which is a delta on the face");
-    for (const LoadSpec& load : c.loads)
-      refuse(load.history == "ramp" || load.history == "expression", "a load of history = " + words(load.history),
-             "steps and impulses");
-    return;
-  }
-  const auto* a = std::get_if<material::Hardening>(&c.bars.front().material);
-  const auto* b = std::get_if<material::Hardening>(&c.bars.back().material);
-  const bool equal = c.bars.size() == 2 && a && b && c.bars[0].length == c.bars[1].length &&
-                     a->youngs_modulus == b->youngs_modulus && a->density == b->density &&
-                     a->yield_stress == b->yield_stress && perfect(c.bars[0]) && perfect(c.bars[1]);
-  refuse(!equal, "other bars", "two equal bars with E_t = 0");
-  for (const Case& variant : variants(c)) {
-    if (!equal || velocity_of(variant, 0) > velocity_of(variant, 1)) continue;
-    refuse(true, "bars that do not close in", "a first bar faster than the second");
-    break;
-  }
-  refuse(c.contact == Contact::bonded, "contact.fem = \"bonded\"", "bars that part");
-  refuse(!c.loads.empty() || c.left == Support::fixed || c.right == Support::fixed, "loads or supports", "free ends");
-}
-
 /// What the named solutions leave out, they cannot be compared with.
 void check_solution(const Place& place, const Case& c) {
-  const std::string& solution = c.exact.solution;
-  const bool wave = solution == "bar-wave", plastic = solution == "plastic-impact",
-             impact = plastic || solution == "impact";
-  if (impact) check_impact(place, c);
-  if (!wave && solution != "standing-mode") return;
-  const auto refuse = [&](bool present, const std::string& what, const std::string& why) {
-    if (present)
-      place.say("found " + words(solution) + " together with " + what + "; " + why +
-                "; allowed: leave that out, or give solution = \"expressions\"");
+  const analytic::BarSolution* row = solution_of(c);
+  if (!row) return;
+  std::set<std::string> said;
+  bool meet = false;
+  const auto say = [&](const std::string& misfit) {
+    if (said.insert(misfit).second) place.say("found " + words(c.exact.solution) + " " + misfit);
   };
-  refuse(std::holds_alternative<material::Hardening>(c.first().material), "material.model = \"hardening\"",
-         "its waves are elastic");
-  refuse(c.bars.size() > 1 || !c.first().velocity.empty(), "several bars or a bar with a velocity",
-         "it knows one bar, at rest before it is loaded (\"impact\" knows the others)");
-  refuse(!c.body_force.empty(), "[body_force]", "it knows no body force");
-  refuse(!wave && !c.loads.empty(), "[[load]]", "its ends carry no traction");
-  refuse(!c.initial_velocity.empty() || !c.initial_stress.empty(), "[initial]",
-         wave ? "its bar starts from rest" : "the mode itself sets the initial velocity");
-  if (!wave) return;
-  bool pulls = false;
-  for (const LoadSpec& load : c.loads) {
-    refuse(load.history == "expression", "a load of history = \"expression\"", "its loads are step, ramp and impulse");
-    pulls = pulls || load.traction != 0 || load.history == "expression";
+  for (const Case& variant : variants(c)) {
+    for (const std::string& misfit : row->misfits(bar_setting(variant, 1))) say(misfit);
+    meet = meet || std::isfinite(contact_time(variant, fem_on(1)));
   }
-  if (!pulls)
-    place.say("found \"bar-wave\" without a load; allowed: at least one [[load]] with a traction other than 0");
+  if (row->of_impact && meet && !c.convected && any_mpm(c))
+    say("together with MPM, infinitesimal displacements and bars that fly; allowed: model.displacements = \"finite\": "
+        "particles that stay in place never meet");
 }
 
 /// Two methods, otherwise alike, on the same four meshes or more.
@@ -544,6 +493,7 @@ void check_plate_gate(Table& t, const GateSpec& gate, const Case& c) {
   const std::string field = gate.quantity.substr(0, gate.quantity.find('.'));
   const PlateExact& e = c.plate->exact;
   if (contains(plate_fields, field) && !contains(plate_invariants, gate.quantity)) {
+    const bool solid = c.plate->material.has_value();
     const bool given = e.solution.empty()            ? true
                        : e.solution == "none"        ? false
                        : e.solution == "expressions" ? !(field == "stress"         ? e.stress[0]
@@ -551,8 +501,8 @@ void check_plate_gate(Table& t, const GateSpec& gate, const Case& c) {
                                                          : field == "displacement" ? e.displacement[0]
                                                                                    : e.concentration)
                                                             .empty()
-                       : e.solution == "corner-source" || e.solution == "face-front" ? field == "concentration"
-                                                                                     : field != "concentration";
+                       : solid ? field != "concentration"
+                               : field == "concentration";
     if (!given) place.refuse(words(gate.quantity) + " where [exact] does not give it", "fields that [exact] gives");
   }
   const bool of_gauge = gate.quantity.starts_with("gauge.");
@@ -606,13 +556,13 @@ void check_gate(Table& t, const GateSpec& gate, const Case& c) {
   if (gate.quantity.starts_with("contact.") && c.bars.size() == 1)
     quantity.refuse(words(gate.quantity) + " of one bar", "with two bars or more");
   const bool yields = std::any_of(c.bars.begin(), c.bars.end(), [](const BarSpec& bar) {
-    return std::holds_alternative<material::Hardening>(bar.material);
+    return std::visit([](const auto& law) { return law.yields; }, bar.material);
   });
   if (gate.quantity.starts_with("plastic.") && !yields)
     quantity.refuse(words(gate.quantity) + " of elastic bars", "with a bar of model = \"hardening\"");
   const bool off = gate.quantity.starts_with("contact.") || gate.quantity.starts_with("plastic.");
-  if (gate.kind == "order" && off && c.exact.solution != "none" &&
-      !contains({"impact", "plastic-impact"}, c.exact.solution))
+  const analytic::BarSolution* solution = solution_of(c);
+  if (gate.kind == "order" && off && c.exact.solution != "none" && !(solution && solution->of_impact))
     quantity.refuse(words(gate.quantity) + " with exact.solution = " + words(c.exact.solution),
                     "with \"impact\" or \"plastic-impact\"");
   const bool of_ledger = gate.quantity.starts_with("plastic.") || gate.quantity.starts_with("energy.") ||

@@ -124,6 +124,19 @@ bool among_swept(const Place& place, const std::map<std::string, std::vector<dou
   return good;
 }
 
+double read_solution_parameter(Table& t, const analytic::SolutionParameter& parameter) {
+  using Rule = analytic::SolutionParameter::Rule;
+  switch (parameter.rule) {
+    case Rule::whole: return t.need(parameter.key, whole(1, 1000));
+    case Rule::positive: return t.need(parameter.key, positive());
+    case Rule::not_zero: return t.need(parameter.key, not_zero());
+    case Rule::choice: break;
+  }
+  const std::string word = t.get(parameter.key, one_of(parameter.choices), parameter.choices.front());
+  const auto place = std::find(parameter.choices.begin(), parameter.choices.end(), word);
+  return static_cast<double>(place - parameter.choices.begin());
+}
+
 namespace {
 
 Axes read_axes(Table& t, const Case& c, const Names& known_methods,

@@ -46,6 +46,30 @@ std::map<std::string, std::vector<double>> read_values(Table&, const Case&);
 /// Notes each parameter that is not swept and each value that no run has.
 bool among_swept(const Place&, const std::map<std::string, std::vector<double>>& parameters, const Case&);
 
+/// The value of a solution's key; 0 where it is missing or wrong.
+double read_solution_parameter(Table&, const analytic::SolutionParameter&);
+/// Keys of [exact] that belong to some solution of the rows: read for the one that was chosen, refused for the others.
+/// One's own expressions may have those of `optional`.
+template <class Rows>
+analytic::SolutionParameters read_solution_parameters(Table& t, const std::string& chosen, const Rows& rows,
+                                                      const Names& optional = {}) {
+  std::vector<std::pair<analytic::SolutionParameter, Names>> keys;  // each with the solutions that have it
+  for (const auto& row : rows) {
+    for (const analytic::SolutionParameter& parameter : row.parameters) {
+      const auto known =
+          std::find_if(keys.begin(), keys.end(), [&](const auto& k) { return k.first.key == parameter.key; });
+      (known == keys.end() ? keys.emplace_back(parameter, Names{}) : *known).second.push_back(row.name);
+    }
+  }
+  analytic::SolutionParameters values;
+  for (auto& [parameter, owners] : keys) {
+    if (contains(optional, parameter.key)) owners.push_back("expressions");
+    if (t.applies(parameter.key, "solution", chosen, owners) && (chosen != "expressions" || t.has(parameter.key)))
+      values[parameter.key] = read_solution_parameter(t, parameter);
+  }
+  return values;
+}
+
 /// [axes] or each [[axes]]: into the case where none holds a mistake. `particles`: where none are given.
 struct AxesBlock {
   Axes axes;

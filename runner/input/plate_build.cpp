@@ -6,10 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "analytic/diffusion_exact.hpp"
-#include "analytic/diffusion_front.hpp"
-#include "analytic/plane_modes.hpp"
-#include "analytic/plate_impact.hpp"
 #include "runner/input/constants.hpp"
 #include "runner/input/expression.hpp"
 #include "runner/input/histories.hpp"
@@ -159,17 +155,19 @@ Plate make_plate(const Case& c, int cells) {
   const bool lame = mode == "lame-mode", roller = mode == "roller-mode", p = mode == "p-wave", s = mode == "s-wave";
   if (lame || roller || p || s) {
     const material::PlaneElastic elastic = elastic_of(spec);
-    const double k = spec.exact.mode * std::numbers::pi / spec.width, amplitude = spec.exact.amplitude;
+    const double k = spec.exact.parameters.at("mode") * std::numbers::pi / spec.width,
+                 amplitude = spec.exact.parameters.at("amplitude");
     const double speed = lame || s ? elastic.shear_wave_speed() : elastic.pressure_wave_speed();
     const double omega = (lame || roller ? std::numbers::sqrt2 : 1) * k * speed;
-    const double size = spec.exact.from_rest ? amplitude : amplitude * omega;
+    const bool from_rest = spec.exact.parameters.at("start") == 0;
+    const double size = from_rest ? amplitude : amplitude * omega;
     const std::function<Vector(double, double)> shape = [=](double x, double y) -> Vector {
       if (lame) return {size * std::cos(k * x) * std::sin(k * y), -size * std::sin(k * x) * std::cos(k * y)};
       if (roller) return {size * std::sin(k * x) * std::cos(k * y), size * std::cos(k * x) * std::sin(k * y)};
       if (p) return {size * std::sin(k * x), 0};
       return {0, size * std::cos(k * x)};
     };
-    (spec.exact.from_rest ? plate.initial_displacement : plate.initial_velocity) = shape;
+    (from_rest ? plate.initial_displacement : plate.initial_velocity) = shape;
   }
   return plate;
 }
@@ -179,28 +177,32 @@ analytic::PlaneMedium medium_of(const PlateSpec& plate) {
   return analytic::plane_medium(e.youngs_modulus, e.poissons_ratio, e.density, e.plane == material::Plane::stress);
 }
 
+analytic::PlaneSetting plane_setting(const PlateSpec& plate) {
+  analytic::PlaneSetting setting;
+  setting.width = plate.width;
+  setting.height = plate.height;
+  for (std::size_t side = 0; side < 4; ++side)
+    setting.supports[side] = support_names[static_cast<std::size_t>(plate.supports[side])];
+  setting.elastic = plate.material && std::holds_alternative<material::PlaneElastic>(*plate.material);
+  if (plate.flyer) setting.strike = {plate.flyer->thickness, plate.flyer->velocity};
+  if (plate.diffusion) setting.corner_rate = plate.diffusion->corner_rate;
+  setting.parameters = plate.exact.parameters;
+  return setting;
+}
+
 std::unique_ptr<analytic::PlaneSolution> make_plane_exact(const Case& c) {
   const PlateSpec& plate = *c.plate;
-  const PlateExact& e = plate.exact;
-  if (e.solution == "expressions") return std::make_unique<PlaneExpressions>(c);
-  if (e.solution == "lame-mode" || e.solution == "roller-mode" || e.solution == "p-wave" || e.solution == "s-wave") {
-    const analytic::SquareMode square{medium_of(plate), plate.width, e.mode, e.amplitude, e.from_rest};
-    const analytic::RectangleMode strip{medium_of(plate), plate.width, plate.height, e.mode, e.amplitude, e.from_rest};
-    if (e.solution == "lame-mode") return std::make_unique<analytic::LameMode>(square);
-    if (e.solution == "roller-mode") return std::make_unique<analytic::RollerMode>(square);
-    if (e.solution == "p-wave") return std::make_unique<analytic::StandingPWave>(strip);
-    return std::make_unique<analytic::StandingSWave>(strip);
+  if (plate.exact.solution == "expressions") return std::make_unique<PlaneExpressions>(c);
+  for (const analytic::PlaneSolutionRow& row : analytic::plane_solutions()) {
+    if (row.name != plate.exact.solution) continue;
+    analytic::PlaneSetting setting = plane_setting(plate);
+    if (plate.material) setting.medium = medium_of(plate);
+    if (const auto& diffusion = plate.diffusion) {
+      setting.diffusivity = diffusion->spread ? diffusion->spread->diffusivity : diffusivity_at(c, 0, 0);
+      if (diffusion->spread) setting.profile = profile_of(diffusion->spread->profile);
+    }
+    return row.make(setting);
   }
-  if (e.solution == "plate-impact")
-    return std::make_unique<analytic::PlateImpact>(analytic::PlateImpact::Parameters{
-        medium_of(plate), plate.width, plate.height, plate.flyer->thickness, plate.flyer->velocity});
-  if (e.solution == "face-front")
-    return std::make_unique<analytic::FaceFront>(
-        analytic::FaceFront::Parameters{plate.width, plate.height, plate.diffusion->spread->diffusivity,
-                                        profile_of(plate.diffusion->spread->profile), 1});
-  if (e.solution == "corner-source")
-    return std::make_unique<analytic::CornerSource>(
-        analytic::CornerSource::Parameters{plate.diffusion->corner_rate, diffusivity_at(c, 0, 0)});
   return nullptr;
 }
 

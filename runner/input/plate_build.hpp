@@ -11,6 +11,7 @@
 #include "analytic/impact_lattice.hpp"
 #include "analytic/plane_discrete.hpp"
 #include "analytic/plane_exact.hpp"
+#include "analytic/plane_solutions.hpp"
 #include "hinge/diffusion/concentration.hpp"
 #include "hinge/diffusion/dilatancy.hpp"
 #include "hinge/scene/plate.hpp"
@@ -28,6 +29,8 @@ std::optional<diffusion::Spread> spread_of(const Case&, int cells);
 
 /// The scene of one run on so many cells. Holds expressions of its own: make one for each thread.
 Plate make_plate(const Case&, int cells);
+/// The plate as exact solutions see it, but for its medium and its diffusivity.
+analytic::PlaneSetting plane_setting(const PlateSpec&);
 /// The exact solution, or null where the case names none.
 std::unique_ptr<analytic::PlaneSolution> make_plane_exact(const Case&);
 analytic::PlaneMedium medium_of(const PlateSpec&);

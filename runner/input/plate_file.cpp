@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "analytic/plane_solutions.hpp"
 #include "runner/input/case_checks.hpp"
 #include "runner/input/case_tables.hpp"
 #include "runner/input/plate_build.hpp"
@@ -346,18 +347,19 @@ void read_plate_viscosity(Table& t, Case& c) {
 
 void read_plate_exact(Table& t, Case& c) {
   PlateExact& exact = c.plate->exact;
-  const Names modes{"lame-mode", "roller-mode", "p-wave", "s-wave"};
+  using Scene = analytic::PlaneSolutionRow::Scene;
   const bool spreads = c.plate->diffusion && c.plate->diffusion->spread;
-  Names solutions = c.plate->material ? modes : spreads ? Names{"face-front"} : Names{"corner-source"};
-  if (c.plate->material) solutions.push_back("plate-impact");
+  const Scene scene = c.plate->material ? Scene::solid : spreads ? Scene::front : Scene::diffusion;
+  Names solutions;
+  for (const analytic::PlaneSolutionRow& row : analytic::plane_solutions())
+    if (row.scene == scene) solutions.push_back(row.name);
   solutions.push_back("expressions");
   exact.solution = t.need("solution", one_of(solutions, "without an exact solution leave out the whole table [exact]"));
   const auto of = [&](const char* key, const Names& owners) {
     return t.applies(key, "solution", exact.solution, owners);
   };
-  if (of("mode", modes)) exact.mode = t.need("mode", whole(1, 1000));
-  if (of("amplitude", modes)) exact.amplitude = t.need("amplitude", not_zero());
-  if (of("start", modes)) exact.from_rest = t.get("start", one_of({"displaced", "moving"})) != "moving";
+  exact.parameters = read_solution_parameters(t, exact.solution, analytic::plane_solutions(), {"core"});
+  if (exact.parameters.contains("core")) exact.core = exact.parameters["core"];
   const Names xyt{"x", "y", "t"};
   if (of("displacement", {"expressions"})) exact.displacement = read_components<2>(t, "displacement", xyt, c);
   if (of("velocity", {"expressions"})) exact.velocity = read_components<2>(t, "velocity", xyt, c);
@@ -369,33 +371,11 @@ void read_plate_exact(Table& t, Case& c) {
         .say(
             "found \"expressions\" without one; allowed: at least one of the keys displacement, velocity, stress, "
             "concentration");
-  if (of("core", {"corner-source", "expressions"}))
-    exact.core = exact.solution == "corner-source" ? t.need("core", positive()) : t.get("core", positive(), 0);
-  using Support = Edge::Support;
-  const auto all_are = [&](Support support) {
-    const auto& supports = c.plate->supports;
-    return std::all_of(supports.begin(), supports.end(), [&](Support s) { return s == support; });
-  };
-  if (exact.solution == "lame-mode" && !all_are(Support::free))
-    t.place("solution").refuse("\"lame-mode\" of a plate that is held", "with four free sides");
-  if ((exact.solution == "roller-mode" || exact.solution == "p-wave") && !all_are(Support::roller))
-    t.place("solution").refuse(words(exact.solution) + " of a plate held otherwise", "with four sides on rollers");
-  if (exact.solution == "plate-impact") {
-    const auto& s = c.plate->supports;
-    const auto place = t.place("solution");
-    if (!c.plate->flyer) place.refuse("\"plate-impact\" without a flyer", "with [flyer]");
-    if (!std::holds_alternative<material::PlaneElastic>(*c.plate->material))
-      place.refuse("\"plate-impact\" of a solid that fails", "of an elastic one");
-    if (s[0] != Support::free || s[1] != Support::free || s[2] != Support::roller || s[3] != Support::roller)
-      place.refuse("\"plate-impact\" of a plate held otherwise",
-                   "with the left and right sides free and the others on rollers");
+  for (const analytic::PlaneSolutionRow& row : analytic::plane_solutions()) {
+    if (row.name != exact.solution) continue;
+    for (const std::string& misfit : row.misfits(plane_setting(*c.plate)))
+      t.place("solution").say("found " + words(exact.solution) + " " + misfit);
   }
-  const bool square = !(c.plate->width > 0 && c.plate->height > 0) ||
-                      std::abs(c.plate->width - c.plate->height) <= 1e-12 * c.plate->width;
-  if (!square && (exact.solution == "lame-mode" || exact.solution == "roller-mode"))
-    t.place("solution").refuse(words(exact.solution) + " of a rectangle", "on a square: width = height");
-  if (exact.solution == "corner-source" && c.plate->diffusion && c.plate->diffusion->corner_rate == 0)
-    t.place("solution").say("found \"corner-source\" without one; allowed: with diffusion.corner_rate other than 0");
 }
 
 /// What a variant may change: all that makes the scene.

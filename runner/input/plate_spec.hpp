@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "analytic/solution_parameter.hpp"
 #include "hinge/diffusion/damage_evolution.hpp"
 #include "hinge/diffusion/dilatancy.hpp"
 #include "hinge/scene/plate.hpp"
@@ -38,13 +39,9 @@ using Pair = std::array<std::string, 2>;
 using Triple = std::array<std::string, 3>;
 
 struct PlateExact {
-  /// "lame-mode", "roller-mode", "p-wave", "s-wave", "plate-impact"; of diffusion alone "corner-source", "face-front";
-  /// "expressions" or "none".
-  std::string solution = "none";
-  int mode = 1;
-  double amplitude = 0;
-  bool from_rest = true;  ///< modes start displaced and at rest; false: in place and moving
-  double core = 0;        ///< radius around the origin where nothing is compared [m]
+  std::string solution = "none";            ///< one of analytic::plane_solutions, "expressions" or "none"
+  analytic::SolutionParameters parameters;  ///< those of the solution
+  double core = 0;                          ///< radius around the origin where nothing is compared [m]
   Pair displacement, velocity;
   Triple stress;
   std::string concentration;

@@ -227,8 +227,10 @@ void measure_early_contact(const Case& c, const Leaf& leaf, const Record& record
   run.measures["contact.early.predicted"] = predicted;
 }
 
-/// Whether bars meet at a time of the run's own, so that each run has an exact solution of its own.
-bool differs_by_run(const Case& c) { return c.exact.solution == "impact" || c.exact.solution == "plastic-impact"; }
+bool differs_by_run(const Case& c) {
+  const analytic::BarSolution* row = solution_of(c);
+  return row && row->of_impact;
+}
 
 /// Why an exact solution that is one for all runs is not to be trusted, or nothing.
 std::string doubt_exact(const Case& c) {

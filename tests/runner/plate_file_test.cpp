@@ -653,7 +653,8 @@ BOOST_AUTO_TEST_CASE(every_key_of_a_mode_and_of_diffusion_alone_is_read) {
   BOOST_TEST((elastic.youngs_modulus == 1e4 && elastic.poissons_ratio == 0.25 && elastic.density == 4));
   BOOST_TEST((elastic.plane == material::Plane::stress));
   const PlateExact& exact = mode.plate->exact;
-  BOOST_TEST((exact.solution == "lame-mode" && exact.mode == 2 && exact.amplitude == -1e-3 && !exact.from_rest));
+  BOOST_TEST((exact.solution == "lame-mode" &&
+              exact.parameters == analytic::SolutionParameters{{"mode", 2}, {"amplitude", -1e-3}, {"start", 1}}));
   BOOST_TEST((mode.gates[1].levels_min == 3 && !mode.gates[1].over_time_step));
 
   BOOST_REQUIRE_EQUAL(message(pure), "");
@@ -692,7 +693,8 @@ BOOST_AUTO_TEST_CASE(what_is_left_out_is_as_said) {
   BOOST_TEST((c.axes[0].particles == std::vector<std::vector<double>>{{0.25, 0.75}}));  // 2 × 2 in a cell
 
   const Case mode = good(elastic_mode, "start = \"moving\"\n", "");
-  BOOST_TEST((mode.plate->exact.from_rest && mode.plate->loads.empty() && mode.plate->drive[0].empty()));
+  BOOST_TEST(
+      (mode.plate->exact.parameters.at("start") == 0 && mode.plate->loads.empty() && mode.plate->drive[0].empty()));
   BOOST_TEST((mode.axes[0].variant == std::vector<std::string>{""} && mode.variants.empty()));
   const std::string sourceless =
       replaced(without(pure, {"rate = ", "scheme = \"crank", "reading", "concentration = \""}),

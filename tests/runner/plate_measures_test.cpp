@@ -853,7 +853,7 @@ BOOST_AUTO_TEST_CASE(the_scene_is_as_the_case_says) {
   BOOST_TEST((moving.initial_velocity && !moving.initial_displacement));
   BOOST_TEST(moving.initial_velocity(0.5, 0)[0] == 1e-3 * omega, tt::tolerance(1e-13));
   BOOST_TEST(moving.initial_velocity(0, 0.5)[1] == 1e-3 * omega, tt::tolerance(1e-13));
-  mode.plate->exact.from_rest = true;
+  mode.plate->exact.parameters["start"] = 0;
   const Plate displaced = make_plate(mode, 8);
   BOOST_TEST((displaced.initial_displacement && !displaced.initial_velocity));
   BOOST_TEST(displaced.initial_displacement(0.5, 0)[0] == 1e-3, tt::tolerance(1e-14));
