@@ -9,10 +9,6 @@
 
 namespace diptych::runner {
 
-mpm::Scheme scheme_of(const std::string& method) {
-  return method == "mpm-usf" ? mpm::Scheme::usf : method == "mpm-usl" ? mpm::Scheme::usl : mpm::Scheme::musl;
-}
-
 bool asks_for(const Case& c, const Leaf& leaf, const std::string& quantity) {
   return std::any_of(c.gates.begin(), c.gates.end(),
                      [&](const GateSpec& gate) { return gate.quantity == quantity && matches(gate.where, leaf); });

@@ -7,7 +7,6 @@
 
 #include "hinge/scene/scene.hpp"
 #include "hinge/step/record.hpp"
-#include "mpm/bar.hpp"
 #include "reports/results.hpp"
 #include "runner/input/case.hpp"
 #include "runner/input/leaf.hpp"
@@ -17,9 +16,6 @@ namespace diptych::runner {
 /// What a run keeps of its books: at least so much, and their sums where a gate or a table asks for
 /// something of them.
 Books books_of(const Case&, const Leaf&, Books least);
-
-/// Of "mpm-usf", "mpm-usl" or "mpm-musl".
-mpm::Scheme scheme_of(const std::string& method);
 
 /// Whether some gate judges this quantity of this run.
 bool asks_for(const Case&, const Leaf&, const std::string& quantity);
