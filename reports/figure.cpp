@@ -39,28 +39,12 @@ struct Look {
   std::string line;  ///< gnuplot's line properties
   bool markers = false;
 };
-Look look(const std::string& kind, std::size_t nth) {
+Look look(const std::vector<PanelLook>& looks, const std::string& kind, std::size_t nth) {
   if (kind == "exact") return {"lw 4.5 lc rgb '#c6c6c6'", false};
-  if (kind == "fem") {
-    constexpr std::array<const char*, 3> lines{"lw 1.4 lc rgb '#08306b'", "lw 1.4 lc rgb '#0072b2' dt (8,3)",
-                                               "lw 1.4 lc rgb '#56b4e9' dt (2,3)"};
-    return {lines[nth % lines.size()], false};
-  }
-  if (kind == "fem-thin") {
-    constexpr std::array<const char*, 3> lines{"lw 0.8 lc rgb '#08306b' dt (14,6)",
-                                               "lw 0.8 lc rgb '#0072b2' dt (14,6,3,6)",
-                                               "lw 0.8 lc rgb '#56b4e9' dt (6,10)"};
-    return {lines[nth % lines.size()], false};
-  }
-  if (kind == "mpm-thin") {
-    constexpr std::array<const char*, 3> lines{"lc rgb '#d55e00' pt 2 ps 0.5", "lc rgb '#009e73' pt 1 ps 0.6",
-                                               "lc rgb '#cc79a7' pt 3 ps 0.6"};
-    return {lines[nth % lines.size()], true};
-  }
-  if (kind == "mpm") {
-    constexpr std::array<const char*, 3> lines{"lc rgb '#d55e00' pt 6 ps 0.55", "lc rgb '#009e73' pt 4 ps 0.5",
-                                               "lc rgb '#cc79a7' pt 8 ps 0.65"};
-    return {lines[nth % lines.size()], true};
+  for (const PanelLook& one : looks) {
+    const bool thin = kind == one.id + "-thin";
+    const auto& lines = thin ? one.thin : one.lines;
+    if ((thin || kind == one.id) && !lines.empty()) return {lines[nth % lines.size()], one.markers};
   }
   return {"lw 1.2 lc rgb '#000000'", false};
 }
@@ -485,7 +469,7 @@ std::vector<Entry> entries_of(const Figure& figure) {
       if (entry == entries.end()) {
         const auto nth =
             std::count_if(entries.begin(), entries.end(), [&](const Entry& e) { return e.kind == series.kind; });
-        entries.push_back({series.label, series.kind, look(series.kind, static_cast<std::size_t>(nth))});
+        entries.push_back({series.label, series.kind, look(figure.looks, series.kind, static_cast<std::size_t>(nth))});
         entry = std::prev(entries.end());
         entry->motion = figure.motion;
       }
@@ -541,7 +525,7 @@ void write_head(std::ostream& gp, const Figure& figure, const Heading& heading, 
     std::string style = entry.appearance.line;
     // Markers joined by a line: a thin one, which leaves what lies beneath in sight.
     if (entry.appearance.markers) {
-      const char *joined = entry.kind == "mpm-thin" ? " lw 0.5" : " lw 0.9", *alone = " lw 1.3";
+      const char *joined = entry.kind.ends_with("-thin") ? " lw 0.5" : " lw 0.9", *alone = " lw 1.3";
       style += entry.motion || entry.interval > 1 ? joined : alone;
       if (!entry.motion && entry.interval > 1) style += fmt::format(" pi {}", entry.interval);
     }

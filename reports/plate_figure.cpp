@@ -29,13 +29,17 @@ constexpr double contour_char = 6.3, contour_line = 15, clearance = 3;  // of la
 
 /// How contours of a kind look: the lines differ too, for print without colour. Colours as in the other figures.
 struct Look {
-  const char *kind, *name, *line;
+  std::string kind, name, line;
 };
-constexpr std::array<Look, 3> looks{{{"fem", "FEM contour", "lw 1.8 lc rgb '#08306b'"},
-                                     {"mpm", "MPM contour", "lw 2.0 lc rgb '#d55e00' dt (9,5)"},
-                                     {"difference", "contour of the difference", "lw 1.4 lc rgb '#333333' dt (2,4)"}}};
+std::vector<Look> looks_of(const PlateFigure& figure) {
+  std::vector<Look> looks;
+  for (const PanelLook& one : figure.looks)
+    if (!one.contour.empty()) looks.push_back({one.id, one.name + " contour", one.contour});
+  looks.push_back({"difference", "contour of the difference", "lw 1.4 lc rgb '#333333' dt (2,4)"});
+  return looks;
+}
 
-std::size_t look_of(const std::string& kind) {
+std::size_t look_of(const std::vector<Look>& looks, const std::string& kind) {
   return static_cast<std::size_t>(
       std::find_if(looks.begin(), looks.end(), [&](const Look& look) { return look.kind == kind; }) - looks.begin());
 }
@@ -65,7 +69,8 @@ struct Layout {
   std::size_t columns = 1, rows = 1;
   double width = page, height = 0, panel_width = 0, panel_height = 0, pixels = 1;  ///< pixels: of one unit of length
   double legend = 0, top = 0, row_step = 0, strip = 0;                             ///< strip: for the panels' labels
-  std::vector<std::size_t> kinds;                                                  ///< in the legend
+  std::vector<Look> looks;
+  std::vector<std::size_t> kinds;  ///< of the looks, those in the legend
   std::vector<Scale> scales;
   std::vector<std::size_t> scale_of;  ///< of each panel; the number of scales without a map
   std::vector<Bar> bars;
@@ -92,7 +97,7 @@ bool has_gap(const Map& map) {
 }
 
 /// Label of the panel, and which contours it cannot show: a level that is not reached must not look like a lost one.
-std::string label_of(const Panel& panel) {
+std::string label_of(const Panel& panel, const std::vector<PanelLook>& looks) {
   std::string missing;
   std::vector<std::string> named;
   for (const Contour& contour : panel.contours) {
@@ -101,7 +106,8 @@ std::string label_of(const Panel& panel) {
     const bool by_other = std::any_of(panel.contours.begin(), panel.contours.end(), [&](const Contour& other) {
       return drawn(other) && other.level == contour.level && other.kind != contour.kind;
     });
-    if (by_other) name = (contour.kind == "fem" ? "FEM " : contour.kind == "mpm" ? "MPM " : "") + name;
+    for (const PanelLook& look : looks)
+      if (by_other && look.id == contour.kind) name = look.name + " " + name;
     if (std::find(named.begin(), named.end(), name) != named.end()) continue;
     missing += (missing.empty() ? "" : ", ") + name;
     named.push_back(name);
@@ -178,15 +184,16 @@ Layout layout_of(const PlateFigure& figure) {
   layout.width = std::max(least_page, left + columns * layout.panel_width + (columns - 1) * column_gap + right);
   layout.heading = heading_of(figure.title, figure.notes, layout.width - left - right);
   layout.legend = margin + layout.heading.height() + 6;
-  for (std::size_t k = 0; k < looks.size(); ++k)
+  layout.looks = looks_of(figure);
+  for (std::size_t k = 0; k < layout.looks.size(); ++k)
     if (std::any_of(figure.panels.begin(), figure.panels.end(), [&](const Panel& panel) {
           return std::any_of(panel.contours.begin(), panel.contours.end(),
-                             [&](const Contour& contour) { return contour.kind == looks[k].kind; });
+                             [&](const Contour& contour) { return contour.kind == layout.looks[k].kind; });
         }))
       layout.kinds.push_back(k);
   std::size_t most = 1;
   for (const Panel& panel : figure.panels) {
-    layout.labels.push_back(lines_of(label_of(panel), layout.panel_width, label_char));
+    layout.labels.push_back(lines_of(label_of(panel, figure.looks), layout.panel_width, label_char));
     most = std::max(most, layout.labels.back().size());
     layout.scale_of.push_back(panel.map ? scale_for(layout.scales, *panel.map) : std::string::npos);
   }
@@ -435,7 +442,7 @@ void write_head(const Script& script, const PlateFigure& figure, const Layout& l
   begin_page(gp, figure.id, layout.width, layout.height, true);
   gp << "# Change the looks here.\n";
   for (const std::size_t k : layout.kinds)
-    gp << "set style line " << k + 1 << ' ' << looks[k].line << "  # " << looks[k].name << '\n';
+    gp << "set style line " << k + 1 << ' ' << layout.looks[k].line << "  # " << layout.looks[k].name << '\n';
   gp << "set style line 99 lw 4.2 lc rgb '#ffffff'  # under the contours\n"
      << "set style line 101 lw 0.9 lc rgb '#707070'  # axes\n";
   for (std::size_t s = 0; s < layout.scales.size(); ++s) {
@@ -461,8 +468,8 @@ void write_head(const Script& script, const PlateFigure& figure, const Layout& l
   for (const std::size_t k : layout.kinds) {
     gp << "set arrow from " << script.at(x, middle) << " to " << script.at(x + sample, middle) << " nohead ls " << k + 1
        << '\n';
-    script.text(looks[k].name, x + sample + sample_gap, middle, "left font ',12' textcolor rgb '#222222'");
-    x += sample + sample_gap + static_cast<double>(characters(looks[k].name)) * label_char + entry_gap;
+    script.text(layout.looks[k].name, x + sample + sample_gap, middle, "left font ',12' textcolor rgb '#222222'");
+    x += sample + sample_gap + static_cast<double>(characters(layout.looks[k].name)) * label_char + entry_gap;
   }
   script.text(figure.y_label, 18,
               layout.top + (static_cast<double>(layout.rows - 1) * layout.row_step + layout.panel_height) / 2,
@@ -529,8 +536,8 @@ void write_panel(const Script& script, const PlateFigure& figure, std::size_t in
     }
   for (std::size_t c = 0; c < panel.contours.size(); ++c)
     if (drawn(panel.contours[c]))
-      elements.push_back(
-          fmt::format("$contour{}_{} with lines ls {}", index + 1, c + 1, look_of(panel.contours[c].kind) + 1));
+      elements.push_back(fmt::format("$contour{}_{} with lines ls {}", index + 1, c + 1,
+                                     look_of(layout.looks, panel.contours[c].kind) + 1));
 
   script.margins(x0, x0 + layout.panel_width, y0, y0 + layout.panel_height);
   if (index == 0)
@@ -615,10 +622,12 @@ void check(const PlateFigure& figure) {
     refuse(fmt::format("{} by {} is no plate", figure.width, figure.height));
   if (figure.panels.empty()) refuse("no panels");
   if (figure.columns < 1) refuse("no columns");
+  const std::vector<Look> looks = looks_of(figure);
   for (const Panel& panel : figure.panels) {
     const std::string where = "panel '" + panel.label + "': ";
     for (const Contour& contour : panel.contours) {
-      if (look_of(contour.kind) == looks.size()) refuse(where + "no kind of contour is called '" + contour.kind + "'");
+      if (look_of(looks, contour.kind) == looks.size())
+        refuse(where + "no kind of contour is called '" + contour.kind + "'");
       for (const Line& line : contour.lines)
         if (line.x.size() != line.y.size())
           refuse(fmt::format("{}contour '{}': {} x but {} y", where, contour.label, line.x.size(), line.y.size()));

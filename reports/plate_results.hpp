@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "reports/look.hpp"
+
 namespace diptych::reports {
 
 /// A polyline through (x[i], y[i]); closed where the last point repeats the first. A point that holds NaN ends it and
@@ -24,7 +26,7 @@ struct PlateFigure {
   struct Contour {
     std::string label;  ///< written on the line, once in a panel for equal labels: "C_d = 0.05"; empty: nothing
     double level = 0;
-    std::string kind;  ///< "fem" solid, "mpm" dashed, "difference" dotted
+    std::string kind;  ///< "difference", dotted, or of one of the looks
     std::vector<Line> lines;
   };
   /// Filled bands between the node values, which are linear along the sides of the cells.
@@ -43,6 +45,7 @@ struct PlateFigure {
   };
   int columns = 1;
   std::vector<Panel> panels;  ///< row by row from the top
+  std::vector<PanelLook> looks = {};
 };
 
 /// The drawing of a problem on a plate: its shape, mesh, supports and loads, and a cell of either method.

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "reports/look.hpp"
 #include "reports/page.hpp"
 #include "reports/plate_results.hpp"
 #include "reports/vtu.hpp"
@@ -85,7 +86,8 @@ struct Run {
   ~Run();
 
   std::string case_id;
-  std::string method;  ///< "fem", "mpm-usf", "mpm-usl", "mpm-musl"
+  std::string method;     ///< "fem", "mpm-usf", "mpm-usl", "mpm-musl"
+  std::string work_unit;  ///< "element-steps" or "particle-steps": what the method's work is counted in
   int cells = 0;
   double courant_asked = 0, courant = 0;      ///< C = cΔt/h as asked and as used
   std::string particles;                      ///< positions in the cell as in the case file, "" for FEM
@@ -171,8 +173,8 @@ struct Figure {
   bool motion = false;
   struct Series {
     std::string label;
-    /// "exact", "fem", "mpm"; "fem-thin", "mpm-thin": a second quantity or run of the same method, in its colour but
-    /// in thin dashes or with small crosses.
+    /// "exact", or of one of the looks, "fem"; "fem-thin": a second quantity or run of the same method, in its colour
+    /// but in thin dashes or with small crosses.
     std::string kind;
     Curve curve;
   };
@@ -199,6 +201,7 @@ struct Figure {
     std::vector<Mark> marks = {};
   };
   std::vector<Panel> panels;
+  std::vector<PanelLook> looks = {};  ///< of the kinds of its series, "exact" being known
 };
 
 struct Case {

@@ -168,18 +168,17 @@ std::string group_title(const Group& group) {
 }
 
 Grid cost_grid(const Case& data, const Group& group) {
-  const bool elements = group.first().method == "fem";
   Grid grid;
   grid.title = "Cost";
   grid.heads = {"cells",        "h [" + unit(data, "length") + "]",
                 "unknowns",     "Courant used",
-                "steps",        elements ? "element-steps" : "particle-steps",
+                "steps",        group.first().work_unit,
                 "node-steps",   "bytes",
                 "wall time [s]"};
   for (const Run* run : group.runs) {
     Row row{{std::to_string(run->cells), general(run->cell_size)}, {}};
     if (has_numbers(*run)) {
-      const long work = elements ? run->element_steps : run->particle_steps;
+      const long work = run->element_steps + run->particle_steps;  // of its method one of them is 0
       row.cells.insert(
           row.cells.end(),
           {std::to_string(run->unknowns), general(run->courant), std::to_string(run->steps), std::to_string(work),

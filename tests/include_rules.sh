@@ -9,7 +9,7 @@ only() { # only FOLDER OTHERS [EXCEPT]: files of FOLDER, but for EXCEPT, include
   [ -n "$files" ] || { echo "no sources in $1"; broken=1; return; }
   looked=$((looked + $(wc -l <<<"$files")))
   # shellcheck disable=SC2086
-  found=$(grep -HnE '#include "' $files | grep -vE "#include \"(($2)/|diptych_version.hpp)")
+  found=$(grep -HnE '#include "' $files | grep -vE "#include \"(($2)[/.]|diptych_version.hpp)")
   [ -z "$found" ] || { echo "$1 may include $2 alone:"; echo "$found"; broken=1; }
 }
 only hinge/material hinge/material
@@ -20,12 +20,17 @@ only fem 'hinge|fem'
 only mpm 'hinge|mpm'
 only analytic analytic
 only reports reports
-only runner/input 'hinge|analytic|reports|runner/input'
-only runner/compare 'hinge|analytic|reports|runner/(input|compare)'
-only runner/run 'hinge|analytic|reports|runner/(input|compare|run)' '^runner/run/(runner|plate_runner|measures)[.]'
-only runner/run 'hinge|fem|mpm|analytic|reports|runner/(input|compare|run)'
-only runner/judge 'hinge|analytic|reports|runner/(input|compare|run|judge)'
-only runner/draw 'hinge|analytic|reports|runner/(input|compare|draw)'
+# panel.cpp alone knows the solvers; what diffuses alone has none.
+[ "$(grep -rlE '#include "(fem|mpm)/' runner --include='*.[ch]pp')" = runner/panel.cpp ] ||
+  { echo "runner/panel.cpp alone includes fem/ and mpm/:"; grep -rnE '#include "(fem|mpm)/' runner; broken=1; }
+# And what a method is stands in that table alone: nobody else decides by a name. (contact.fem is a key of case files.)
+named=$(grep -rnE '"(fem|mpm)[-"]' runner reports --include='*.[ch]pp' | grep -vE '^runner/panel.cpp:|//.*"(fem|mpm)|t[.]need\("fem", one_of' )
+[ -z "$named" ] || { echo "a method's name outside of runner/panel.cpp:"; echo "$named"; broken=1; }
+only runner/input 'hinge|analytic|reports|runner/(input|panel|diffusion_alone)'
+only runner/compare 'hinge|analytic|reports|runner/(input|compare|panel)'
+only runner/run 'hinge|analytic|reports|runner/(input|compare|run|panel|diffusion_alone)'
+only runner/judge 'hinge|analytic|reports|runner/(input|compare|run|judge|panel)'
+only runner/draw 'hinge|analytic|reports|runner/(input|compare|draw|panel)'
 only runner/app 'hinge|analytic|reports|runner'
 echo "$looked files"
 exit "$broken"

@@ -156,7 +156,8 @@ ImpactTheory impact_theory(const PlateSpec& plate, double from_face) {
 void measure_gauges(const Case& c, const Leaf& leaf, const PlateRecord& record, double time_step, reports::Run& run) {
   const PlateSpec& plate = *c.plate;
   if (!plate.flyer) return;
-  if (plate.flyer->gap > 0 && leaf.method != "fem") run.measures["impact.left-over"] = record.left_over / run.cell_size;
+  if (plate.flyer->gap > 0 && panel(leaf.method).grid_contact)
+    run.measures["impact.left-over"] = record.left_over / run.cell_size;
   if (plate.spread) measure_ahead(c, leaf, record, run);
   using Support = Edge::Support;
   const std::array strip{Support::free, Support::free, Support::roller, Support::roller};
@@ -164,7 +165,8 @@ void measure_gauges(const Case& c, const Leaf& leaf, const PlateRecord& record, 
                         !plate.viscosity && plate.pic == 0 && plate.loads.empty() && plate.body_force[0].empty() &&
                         plate.supports == strip && symmetric(leaf.particles);
   std::optional<analytic::ImpactLattice> lattice;
-  if (by_waves && !c.gauges.empty()) lattice.emplace(impact_lattice(plate, leaf, time_step));
+  if (by_waves && !c.gauges.empty())
+    if (const auto known = impact_lattice(plate, leaf, time_step)) lattice.emplace(*known);
   for (std::size_t g = 0; g < c.gauges.size(); ++g) {
     const GaugeSpec& gauge = c.gauges[g];
     const GaugeRecord& seen = record.gauges.at(g);

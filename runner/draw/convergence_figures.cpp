@@ -148,7 +148,7 @@ reports::Figure convergence_figure(const Case& c, const FigureSpec& spec, const 
       panel.series.push_back({name + ", ± U", kind + "-thin", std::move(band)});
       const double limit = series.uncertainty->extrapolated;
       if (!std::isfinite(limit)) continue;
-      panel.marks.push_back({limit, fmt::format("{} → {:.4g}", method == "fem" ? "FEM" : "MPM", limit), false});
+      panel.marks.push_back({limit, fmt::format("{} → {:.4g}", family_of_method(method), limit), false});
       hold(limit);
     }
     const double margin = high > low ? 0.08 * (high - low) : 1;

@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include "runner/input/leaf.hpp"
@@ -17,22 +16,18 @@ const reports::Run* find_run(const std::vector<reports::Run>& runs, const Figure
   for (const auto& run : runs) {
     if (run.method == method && run.cells == spec.cells && run.courant_asked == spec.courant_of(method) &&
         run.parameters == parameters && run.status == "completed" &&
-        (method == "fem" || run.particles == particles_label(spec.particles))) {
+        (!panel(method).particles || run.particles == particles_label(spec.particles))) {
       return &run;
     }
   }
   return nullptr;
 }
 
-std::string name_of_method(const std::string& method) {
-  if (!method.starts_with("mpm")) return "FEM";
-  std::string scheme = method.substr(4);
-  std::transform(scheme.begin(), scheme.end(), scheme.begin(),
-                 [](unsigned char ch) { return static_cast<char>(std::toupper(ch)); });
-  return "MPM, " + scheme;
-}
+std::string name_of_method(const std::string& method) { return panel(method).name; }
 
-std::string kind_of_method(const std::string& method) { return method == "fem" ? "fem" : "mpm"; }
+std::string kind_of_method(const std::string& method) { return panel(method).look.id; }
+
+std::string family_of_method(const std::string& method) { return panel(method).look.name; }
 
 std::string title_of(const Case& c, const FigureSpec& spec) {
   const std::string title = spec.title.empty() ? c.title : spec.title;

@@ -28,7 +28,8 @@ bool same(const BarSpec& a, const BarSpec& b) { return words_of(a) == words_of(b
 
 /// Parameters under the title: of the runs, of the bars, and which of them the paper leaves open.
 std::vector<std::string> notes_of(const Case& c, const FigureSpec& spec) {
-  const bool mpm = spec.methods != std::vector<std::string>{"fem"};
+  const bool mpm = std::any_of(spec.methods.begin(), spec.methods.end(),
+                               [](const std::string& method) { return panel(method).particles; });
   const std::string particles =
       mpm ? fmt::format("particles at ξ = {} of each cell; ", particles_label(spec.particles)) : "";
   std::vector<std::string> notes;
@@ -83,7 +84,7 @@ reports::Curve between(const reports::Curve& paths, double from, double to) {
 }
 
 void add_motion(const Case& c, const FigureSpec& spec, const std::vector<reports::Run>& runs, reports::Figure& figure) {
-  const double unit = time_unit(c, c.time_unit), origin = instant(c, fem_on(spec.cells), 0);
+  const double unit = time_unit(c, c.time_unit), origin = instant(c, spec.cells, 0);
   figure.motion = true;
   figure.x_label = fmt::format("position x [{}]", length_unit(c));
   figure.y_label = fmt::format("time t [{}]{}", c.time_unit, c.from_contact ? " from contact" : "");
@@ -218,6 +219,8 @@ void add_figures(const Case& whole, reports::Case& result) {
     }
     result.figures.push_back(std::move(figure));
   }
+  for (auto& figure : result.figures) figure.looks = looks();
+  for (auto& figure : result.plate_figures) figure.looks = looks();
 }
 
 }  // namespace diptych::runner

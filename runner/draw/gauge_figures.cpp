@@ -127,7 +127,7 @@ reports::Figure gauge_figure(const Case& c, const FigureSpec& spec, const std::v
         }
         const double over = measure(run, "gauge." + gauge.id + ".overshoot");
         if (spec.variants.size() > 1)
-          panel.label += fmt::format("; {} overshoot {:.1f} %, 10–90 % in {:.0f} ns", method == "fem" ? "FEM" : "MPM",
+          panel.label += fmt::format("; {} overshoot {:.1f} %, 10–90 % in {:.0f} ns", family_of_method(method),
                                      over < 0 ? 0.0 : over * 100, measure(run, "gauge." + gauge.id + ".rise") * 1e9);
       }
       for (const SpeedBand& band : spec.bands)

@@ -256,7 +256,7 @@ void add_choices(const Case& c, const FigureSpec& spec, const std::vector<report
                             cells.x, cells.y, in_ms(time), symbol, level)};
   for (const std::string& note : plate_notes(c, spec)) page.intro.push_back(note + ".");
   for (const std::string& method : spec.methods) {
-    const std::string name = method == "fem" ? "FEM" : "MPM";
+    const std::string name = family_of_method(method);
     for (const char* what : {"radius at 45° [m]", "area [m²]"})
       table.columns.push_back(fmt::format("{} {}", name, what));
     table.columns.push_back(fmt::format("{} largest {}", name, symbol));

@@ -215,7 +215,7 @@ void read_bar_case(Table& file, Case& c) {
   const std::vector<Place> velocities = read_bars(file, c);
 
   bool bars_are_read = file.mistakes() == before;
-  const std::vector<AxesBlock> blocks = read_all_axes(file, c, methods, {{0.5}});
+  const std::vector<AxesBlock> blocks = read_all_axes(file, c, methods_of(c), {{0.5}});
   for (std::size_t b = 0; b < velocities.size(); ++b) {
     if (check_constant(velocities[b], c.bars[b].velocity, c)) continue;
     c.bars[b].velocity.clear();

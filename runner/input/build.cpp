@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <stdexcept>
 
@@ -63,7 +64,7 @@ class ExpressionSolution final : public analytic::ExactSolution {
   void add(Quantity q, const std::string& formula, const Case& c) {
     if (formula.empty()) return;
     const Expression& f = formulas_.emplace(q, Expression(formula, {"x", "t"}, expression_constants(c))).first->second;
-    const double end = instant(c, fem_on(1), c.times.back()), length = begins_of(c, 1).back() + c.bars.back().length;
+    const double end = instant(c, 1, c.times.back()), length = begins_of(c, 1).back() + c.bars.back().length;
     double largest = 0;
     for (int i = 0; i <= 64; ++i) {
       for (int j = 0; j <= 64; ++j) largest = std::max(largest, std::abs(f(length * i / 64, end * j / 64)));
@@ -94,10 +95,10 @@ analytic::BarEnd bar_end(const Case& c, End end) {
 }
 
 /// How much nearer to the bar before it a bar of particles may come than its ends allow before the grid makes them
-/// touch: the rest of the gap when rigid flight first puts the two on one node. 0 for FEM and where they do not close
-/// in.
+/// touch: the rest of the gap when rigid flight first puts the two on one node. 0 where contact is of ends, and where
+/// they do not close in.
 double standoff(const Case& c, const Leaf& leaf, std::size_t bar) {
-  if (leaf.method == "fem") return 0;
+  if (!panel(leaf.method).grid_contact) return 0;
   const double h = c.first().length / leaf.cells, origin = begins_of(c, leaf.cells)[bar - 1];
   const double gap = length_of(c, c.bars[bar].gap, leaf.cells), end = origin + c.bars[bar - 1].length;
   const double before = velocity_of(c, bar - 1), after = velocity_of(c, bar);
@@ -172,14 +173,30 @@ double viscosity_strength(const Case& c) {
   return v.form == material::Viscosity::Form::york ? v.bulk * v.length * (v.c1 + v.c2) : v.c1;
 }
 
-double contact_time(const Case& c, const Leaf& leaf) {
+namespace {
+
+/// closer: how much nearer than its ends allow a bar touches the one before.
+double first_contact(const Case& c, int cells, const std::function<double(std::size_t bar)>& closer) {
   double first = std::numeric_limits<double>::infinity();
   for (std::size_t b = 1; b < c.bars.size(); ++b) {
     const double closing = velocity_of(c, b - 1) - velocity_of(c, b);
-    if (closing > 0)
-      first = std::min(first, (length_of(c, c.bars[b].gap, leaf.cells) - standoff(c, leaf, b)) / closing);
+    if (closing > 0) first = std::min(first, (length_of(c, c.bars[b].gap, cells) - closer(b)) / closing);
   }
   return first;
+}
+
+}  // namespace
+
+double contact_time(const Case& c, int cells) {
+  return first_contact(c, cells, [](std::size_t) { return 0.0; });
+}
+
+double contact_time(const Case& c, const Leaf& leaf) {
+  return first_contact(c, leaf.cells, [&](std::size_t b) { return standoff(c, leaf, b); });
+}
+
+double instant(const Case& c, int cells, double at) {
+  return (c.from_contact ? contact_time(c, cells) : 0) + at * time_unit(c, c.time_unit);
 }
 
 double instant(const Case& c, const Leaf& leaf, double at) {
@@ -263,17 +280,14 @@ std::unique_ptr<analytic::ExactSolution> make_exact(const Case& c, const Leaf& l
   for (std::size_t b = 1; b < begins.size(); ++b) shifts[b] = shifts[b - 1] + standoff(c, leaf, b);
   for (std::size_t b = 0; b < begins.size(); ++b) setting.bars[b].begin = begins[b] - shifts[b];
   setting.until = instant(c, leaf, c.times.back());
-  setting.bonded = setting.bonded && leaf.method == "fem";
+  setting.bonded = setting.bonded && !panel(leaf.method).grid_contact;
   return std::make_unique<CloserBars>(row->make(setting), std::move(begins), std::move(shifts));
 }
 
-analytic::Discretisation discretisation(const Case& c, const Leaf& leaf, double courant) {
-  using analytic::Scheme;
-  const Scheme scheme = leaf.method == "fem"       ? Scheme::fem
-                        : leaf.method == "mpm-usf" ? Scheme::mpm_usf
-                        : leaf.method == "mpm-usl" ? Scheme::mpm_usl
-                                                   : Scheme::mpm_musl;
-  return {scheme, c.first().length / leaf.cells, courant, leaf.particles};
+std::optional<analytic::Discretisation> discretisation(const Case& c, const Leaf& leaf, double courant) {
+  const auto scheme = panel(leaf.method).bar_theory;
+  if (!scheme) return {};
+  return analytic::Discretisation{*scheme, c.first().length / leaf.cells, courant, leaf.particles};
 }
 
 double PowersOfTwo::time() const { return length * std::sqrt(density / modulus); }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "analytic/bar_solutions.hpp"
@@ -23,11 +24,13 @@ std::string words_of(const material::Viscosity&);
 double velocity_of(const Case&, std::size_t bar);
 /// Where the bars begin, on a grid of `cells` in the first one [m].
 std::vector<double> begins_of(const Case&, int cells);
-/// When the first two bars to meet in free flight do so [s]; infinite where none do. MPM's meet on a node of the grid.
+/// When the ends of the first two bars to meet in free flight do so, on a grid of `cells` [s]; infinite where none do.
+double contact_time(const Case&, int cells);
+/// The same as the run's panel has it: some bars meet on a node of the grid.
 double contact_time(const Case&, const Leaf&);
-/// A run of FEM, for which bars meet when their ends do.
-inline Leaf fem_on(int cells) { return {"fem", cells, 0, {}}; }
-/// A sample time as written, in seconds from the start of the run. Times from contact are from the run's own.
+/// A sample time as written, in seconds from the start of the run. Times from contact are from when the ends meet, or
+/// from the run's own.
+double instant(const Case&, int cells, double at);
 double instant(const Case&, const Leaf&, double at);
 /// A length as written, in case units, on a grid of `cells`.
 double length_of(const Case&, const Measured&, int cells);
@@ -47,11 +50,11 @@ Scene make_scene(const Case&, int cells);
 analytic::BarSetting bar_setting(const Case&, int cells);
 /// The row of the case's exact solution; null where it names none or gives expressions.
 const analytic::BarSolution* solution_of(const Case&);
-/// The exact solution for a run, or null where the case names none. MPM's bars touch as soon as they share a node of
-/// the grid, which rigid flight tells to the bit; the exact bars are then given the same distance to touch at.
+/// The exact solution for a run, or null where the case names none. Particles' bars touch as soon as they share a node
+/// of the grid, which rigid flight tells to the bit; the exact bars are then given the same distance to touch at.
 std::unique_ptr<analytic::ExactSolution> make_exact(const Case&, const Leaf&);
-/// The same scheme and grid as theory sees them.
-analytic::Discretisation discretisation(const Case&, const Leaf&, double courant);
+/// The same scheme and grid as theory sees them; nothing where there is no theory of the panel.
+std::optional<analytic::Discretisation> discretisation(const Case&, const Leaf&, double courant);
 
 /// Another solution of the same bars standing nearer to each other. The reader's coordinates are those before they were
 /// moved together.
@@ -77,11 +80,12 @@ class CloserBars final : public analytic::ExactSolution {
 
 /// All lengths, times and stresses multiplied by powers of two: a run must answer with the same bits, scaled.
 struct PowersOfTwo {
-  double length = 2, modulus = 4, density = 16, stress = 32;  // so that no derived factor is 1
-  double time() const;                                        ///< length·√(density/modulus)
-  double velocity() const;                                    ///< stress/√(modulus·density)
+  double length = 1, modulus = 1, density = 1, stress = 1;
+  double time() const;      ///< length·√(density/modulus)
+  double velocity() const;  ///< stress/√(modulus·density)
   double displacement() const { return stress * length / modulus; }
 };
+inline constexpr PowersOfTwo powers_of_two{2, 4, 16, 32};  ///< so that no derived factor is 1
 Scene scaled(const Scene&, const PowersOfTwo&);
 /// The bar seen from behind: x → L − x, velocities reversed.
 Scene mirrored(const Scene&);

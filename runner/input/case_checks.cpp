@@ -16,16 +16,30 @@ namespace {
 /// What a `constant` gate may be measured against, and where that theory holds.
 struct Theory {
   std::string name, solution;
-  Names quantities, methods;
+  Names quantities;
+  std::vector<analytic::Scheme> schemes = {};  ///< none: a theory of the bar or its loads, whatever the scheme
+  Names methods() const {
+    Names names = panels_for(SceneKind::bars);
+    std::erase_if(names, [&](const std::string& method) {
+      const auto scheme = panel(method).bar_theory;
+      return !schemes.empty() && (!scheme || std::find(schemes.begin(), schemes.end(), *scheme) == schemes.end());
+    });
+    return names;
+  }
 };
+using Scheme = analytic::Scheme;
+const std::vector<Scheme> all_schemes{Scheme::fem, Scheme::mpm_usf, Scheme::mpm_usl, Scheme::mpm_musl};
 const std::vector<Theory> all_theories{
-    {"discrete-step", "bar-wave", {"stress.L2", "displacement.L2"}, methods},
-    {"airy-step", "bar-wave", {"stress.L2", "displacement.L2", "displacement.Linf"}, {"fem", "mpm-usf", "mpm-musl"}},
-    {"end-equilibrium", "", {}, methods},  // the loads' own: probes of stress, whatever the solution
-    {"mode", "standing-mode", quantities_of("order", {}), methods},
-    {"viscous-front", "bar-wave", {"stress.L1", "stress.L2", "velocity.L1", "velocity.L2"}, methods},
-    {"impact", "impact", outcomes, methods},
-    {"plastic-impact", "plastic-impact", outcomes, methods},
+    {"discrete-step", "bar-wave", {"stress.L2", "displacement.L2"}, all_schemes},
+    {"airy-step",
+     "bar-wave",
+     {"stress.L2", "displacement.L2", "displacement.Linf"},
+     {Scheme::fem, Scheme::mpm_usf, Scheme::mpm_musl}},
+    {"end-equilibrium", "", {}},  // the loads' own: probes of stress, whatever the solution
+    {"mode", "standing-mode", quantities_of("order", {}), all_schemes},
+    {"viscous-front", "bar-wave", {"stress.L1", "stress.L2", "velocity.L1", "velocity.L2"}},
+    {"impact", "impact", outcomes},
+    {"plastic-impact", "plastic-impact", outcomes},
 };
 
 /// The same of plates: standing modes; of a plate that a flyer strikes what the solid does, what the lattice does, and
@@ -102,9 +116,9 @@ void check_theory(const Place& predict, const GateSpec& gate, const Case& c) {
     predict.refuse(name + " for " + words(gate.quantity), "for " + joined(theory->quantities));
   std::set<std::string> others;
   for (const Leaf& run : runs_of(gate, c))
-    if (!contains(theory->methods, run.method)) others.insert(run.method);
+    if (!contains(theory->methods(), run.method)) others.insert(run.method);
   for (const std::string& method : others)
-    predict.refuse(name + " for method " + words(method), "for " + joined(theory->methods),
+    predict.refuse(name + " for method " + words(method), "for " + joined(theory->methods()),
                    "say so in where = { method = ... }");
   if (gate.predict == "viscous-front") {
     const std::vector<Case> all = variants(c);
@@ -197,7 +211,7 @@ Names plate_quantities_of(const std::string& kind, const Case& c) {
 
 }  // namespace
 
-const Names& methods_of(const Case& c) { return c.plate && !c.plate->material ? diffusion_methods : methods; }
+Names methods_of(const Case& c) { return panels_for(kind_of(c)); }
 
 Names variants_of(const Case& c) {
   Names names{""};
@@ -328,7 +342,7 @@ void check_in_some_bar(const Place& place, const Measured& at, const Case& c) {
 void check_contact(const Place& place, const Case& c) {
   if (!bar_is_known(c) || c.axes.empty()) return;
   for (const Case& variant : variants(c)) {
-    if (std::isfinite(contact_time(variant, fem_on(all_axes(c).cells.front())))) continue;
+    if (std::isfinite(contact_time(variant, all_axes(c).cells.front()))) continue;
     place.say("found \"contact\" where no two bars close in; allowed: with bars whose velocities make them meet");
     return;
   }
@@ -402,7 +416,7 @@ void check_steps(const Place& place, const Axes& axes, const Case& c) {
   const int cells = *std::max_element(axes.cells.begin(), axes.cells.end());
   double end = 0;  // in L/c
   for (const Case& variant : variants(c))
-    end = std::max(end, instant(variant, fem_on(cells), c.times.back()) / time_unit(c, "L/c"));
+    end = std::max(end, instant(variant, cells, c.times.back()) / time_unit(c, "L/c"));
   if (std::isinf(end)) return;  // bars that never meet: reported already
   const double steps = end * cells / courant;
   if (!(steps <= most))
@@ -411,16 +425,31 @@ void check_steps(const Place& place, const Axes& axes, const Case& c) {
 }
 
 void check_methods(const Place& place, const Axes& axes, const Case& c) {
-  if (!contains(axes.method, "fem")) return;
-  for (const auto& [feature, key] : features_in_use(c))
-    if (feature == "boundary-layer" || (c.convected && feature == "body-force"))
-      place.refuse("\"fem\" together with " + key + (feature == "body-force" ? " and finite displacements" : ""),
-                   "MPM methods only: mpm-usf, mpm-usl, mpm-musl");
+  const auto used = features_in_use(c);
+  const auto refused = [&](const Panel& p, const Names& together) {
+    return std::find(p.refuses.begin(), p.refuses.end(), together) != p.refuses.end() &&
+           std::all_of(together.begin(), together.end(), [&](const std::string& f) { return used.contains(f); });
+  };
+  for (const std::string& method : axes.method) {
+    for (const Names& together : panel(method).refuses) {
+      if (!refused(panel(method), together)) continue;
+      Names others, families;
+      for (const std::string& other : methods_of(c)) {
+        if (refused(panel(other), together)) continue;
+        others.push_back(other);
+        if (!contains(families, panel(other).look.name)) families.push_back(panel(other).look.name);
+      }
+      const bool moving = together.back() == "convection" && together.size() > 1;
+      place.refuse(
+          words(method) + " together with " + used.at(together.front()) + (moving ? " and finite displacements" : ""),
+          listed(families) + " methods only: " + listed(others));
+    }
+  }
 }
 
-bool any_mpm(const Case& c) {
+bool any_particles(const Case& c) {
   const std::vector<Leaf> runs = leaves(c);
-  return std::any_of(runs.begin(), runs.end(), [](const Leaf& run) { return run.method != "fem"; });
+  return std::any_of(runs.begin(), runs.end(), [](const Leaf& run) { return panel(run.method).particles; });
 }
 
 /// What the named solutions leave out, they cannot be compared with.
@@ -434,9 +463,9 @@ void check_solution(const Place& place, const Case& c) {
   };
   for (const Case& variant : variants(c)) {
     for (const std::string& misfit : row->misfits(bar_setting(variant, 1))) say(misfit);
-    meet = meet || std::isfinite(contact_time(variant, fem_on(1)));
+    meet = meet || std::isfinite(contact_time(variant, 1));
   }
-  if (row->of_impact && meet && !c.convected && any_mpm(c))
+  if (row->of_impact && meet && !c.convected && any_particles(c))
     say("together with MPM, infinitesimal displacements and bars that fly; allowed: model.displacements = \"finite\": "
         "particles that stay in place never meet");
 }
@@ -545,7 +574,23 @@ void check_plate_gate(Table& t, const GateSpec& gate, const Case& c) {
   if (gate.kind == "order") check_order(t, gate, c);
 }
 
+/// What only theory of the scheme predicts needs a panel of which there is one.
+void check_predicted(Table& t, const GateSpec& gate, const Case& c) {
+  const bool of_scheme =
+      contains({"stability-limit", "impact-lattice"}, gate.predict) || (c.plate && gate.predict == "mode");
+  if (!of_scheme) return;
+  Names known = methods_of(c), without;
+  std::erase_if(known, [&](const std::string& method) { return !panel(method).has_theory(kind_of(c)); });
+  for (const Leaf& run : runs_of(gate, c))
+    if (!contains(known, run.method) && !contains(without, run.method)) without.push_back(run.method);
+  for (const std::string& method : without)
+    t.place("predict").refuse(
+        words(gate.predict) + " for method " + words(method) + ", of which there is no prediction",
+        "for " + joined(known), "say so in where = { method = ... }");
+}
+
 void check_gate(Table& t, const GateSpec& gate, const Case& c) {
+  check_predicted(t, gate, c);
   if (c.plate) {
     check_plate_gate(t, gate, c);
     return;
@@ -597,8 +642,9 @@ void check_where(const Place& place, const GateSpec& gate, const Case& c) {
     met(name.c_str(), values, [&, key = name](const Leaf& run) {
       return run.parameters.contains(key) ? run.parameters.at(key) : std::nan("");
     });
-  const bool fem_alone = std::all_of(runs.begin(), runs.end(), [](const Leaf& run) { return run.particles.empty(); });
-  if (fem_alone) return;  // it has no particles to tell apart
+  const bool no_particles =
+      std::all_of(runs.begin(), runs.end(), [](const Leaf& run) { return run.particles.empty(); });
+  if (no_particles) return;
   met("particles", gate.where.particles, [](const Leaf& run) { return run.particles; });
 }
 

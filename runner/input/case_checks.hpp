@@ -11,8 +11,6 @@
 
 namespace diptych::runner {
 
-inline const Names methods{"fem", "mpm-usf", "mpm-usl", "mpm-musl"};
-inline const Names diffusion_methods{"diffusion"};
 inline const Names fields{"stress", "velocity", "displacement"};
 /// What a run with several bars or plasticity tells beside its fields, each with what the exact solution says of it.
 inline const Names outcomes{"contact.begin",    "contact.early",       "contact.end",
@@ -22,7 +20,7 @@ inline const Names invariants{"energy.drift",  "energy.lost",    "energy.closure
                               "bits.repeat",   "bits.alone",     "bits.inviscid",     "cross.fem-on-half-the-cells"};
 
 /// Methods that can take the case's scene.
-const Names& methods_of(const Case&);
+Names methods_of(const Case&);
 /// Ids of a plate's variants, and "" for the case as it stands.
 Names variants_of(const Case&);
 /// Kinds of figures of the case's scene; the first is the usual one.

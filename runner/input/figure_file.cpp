@@ -146,7 +146,8 @@ FigureSpec read_figure(Table& t, const Case& c) {
       good &= among(t.place("courant"), std::vector{figure.courant_of(method)}, axes.courant, "axes.courant");
   }
   good &= among(t.place("methods"), figure.methods, axes.method, "axes.method");
-  if (!figure.particles.empty() && figure.methods != Names{"fem"})
+  if (!figure.particles.empty() && std::any_of(figure.methods.begin(), figure.methods.end(),
+                                               [](const std::string& m) { return panel(m).particles; }))
     good &= among(t.place("particles"), std::vector<std::vector<double>>{figure.particles}, axes.particles,
                   "axes.particles");
   const std::vector<Leaf> runs = leaves(c);
@@ -154,7 +155,7 @@ FigureSpec read_figure(Table& t, const Case& c) {
     return figure;  // of no run, or of many
   for (const std::string& method : figure.methods) {
     const Leaf leaf{method, figure.cells, figure.courant_of(method),
-                    method.starts_with("mpm") ? figure.particles : std::vector<double>{}, figure.parameters};
+                    panel(method).particles ? figure.particles : std::vector<double>{}, figure.parameters};
     if (good && !runs.empty() && std::find(runs.begin(), runs.end(), leaf) == runs.end())
       t.place("methods").refuse(
           fmt::format("{} with cells = {}, courant = {}{}{}", words(method), leaf.cells, words(leaf.courant),

@@ -30,9 +30,11 @@ std::vector<Parameters> combinations(const std::map<std::string, std::vector<dou
   return all;
 }
 
-bool has_particles(const std::string& method) { return method.starts_with("mpm"); }
-
 }  // namespace
+
+SceneKind kind_of(const Case& c) {
+  return !c.plate ? SceneKind::bars : c.plate->material ? SceneKind::plate : SceneKind::diffusion;
+}
 
 std::vector<Leaf> leaves(const Case& c) {
   std::vector<Leaf> all;
@@ -46,7 +48,7 @@ std::vector<Leaf> leaves(const Case& c) {
           for (const Parameters& parameters : combinations(block.parameters)) {
             for (const std::string& variant : block.variant) {
               for (const int cells : block.cells)
-                add({method, cells, courant, has_particles(method) ? particles : std::vector<double>{}, parameters,
+                add({method, cells, courant, panel(method).particles ? particles : std::vector<double>{}, parameters,
                      variant});
             }
           }
@@ -64,7 +66,7 @@ bool matches(const Where& where, const Leaf& leaf) {
   }
   return allowed(where.method, leaf.method) && allowed(where.cells, leaf.cells) &&
          allowed(where.courant, leaf.courant) && allowed(where.variant, leaf.variant) &&
-         (!has_particles(leaf.method) || allowed(where.particles, leaf.particles));
+         (!panel(leaf.method).particles || allowed(where.particles, leaf.particles));
 }
 
 Case with_parameters(Case c, const Leaf& leaf) {
@@ -73,6 +75,12 @@ Case with_parameters(Case c, const Leaf& leaf) {
     if (variant.id == leaf.variant) c.plate = variant.plate;
   if (c.plate && c.plate->rows > 0) c.plate->height = c.plate->rows * (c.plate->width / leaf.cells);
   return c;
+}
+
+std::shared_ptr<const Case> case_of(const Case& c, const Leaf& leaf) {
+  const bool itself = leaf.parameters.empty() && leaf.variant.empty() && !(c.plate && c.plate->rows > 0);
+  if (itself) return {std::shared_ptr<const Case>(), &c};
+  return std::make_shared<const Case>(with_parameters(c, leaf));
 }
 
 std::string parameters_label(const Parameters& parameters) {

@@ -215,24 +215,32 @@ analytic::FrontProfile profile_of(diffusion::Profile profile) {
   return analytic::FrontProfile::constant;
 }
 
-analytic::ImpactLattice::Parameters impact_lattice(const PlateSpec& plate, const Leaf& leaf, double time_step) {
-  return {medium_of(plate), plane_discretisation(plate, leaf, time_step), leaf.cells,
-          static_cast<int>(std::lround(plate.flyer->thickness * leaf.cells / plate.width)), plate.flyer->velocity};
+std::optional<analytic::ImpactLattice::Parameters> impact_lattice(const PlateSpec& plate, const Leaf& leaf,
+                                                                  double time_step) {
+  const auto scheme = plane_discretisation(plate, leaf, time_step);
+  if (!scheme) return {};
+  return analytic::ImpactLattice::Parameters{
+      medium_of(plate), *scheme, leaf.cells,
+      static_cast<int>(std::lround(plate.flyer->thickness * leaf.cells / plate.width)), plate.flyer->velocity};
 }
 
-analytic::PlaneDiscretisation plane_discretisation(const PlateSpec& plate, const Leaf& leaf, double time_step) {
-  using Method = analytic::PlaneDiscretisation::Method;
+std::optional<analytic::PlaneDiscretisation> plane_discretisation(const PlateSpec& plate, const Leaf& leaf,
+                                                                  double time_step) {
+  const auto method = panel(leaf.method).plate_theory;
+  if (!method) return {};
   const diffusion::Grid grid = grid_of(plate, leaf.cells);
-  const Method method = leaf.method == "fem"        ? Method::fem
-                        : leaf.method == "mpm-usf"  ? Method::usf
-                        : leaf.method == "mpm-musl" ? Method::musl
-                                                    : Method::usl;
-  return {method, grid.hx, grid.hy, time_step, leaf.particles};
+  return analytic::PlaneDiscretisation{*method, grid.hx, grid.hy, time_step, leaf.particles};
 }
 
 DiffusionScene make_diffusion(const Case& c) {
   const PureDiffusion& spec = *c.plate->diffusion;
   DiffusionScene scene;
+  scene.width = c.plate->width;
+  scene.height = c.plate->height;
+  scene.corner_rate = spec.corner_rate;
+  scene.scheme = spec.scheme;
+  scene.reading = spec.reading;
+  scene.spread = spec.spread;
   if (spec.spread) {
     scene.diffusivity = [d = spec.spread->diffusivity](double, double) { return d; };
     return scene;

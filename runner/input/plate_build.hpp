@@ -34,17 +34,13 @@ analytic::PlaneSetting plane_setting(const PlateSpec&);
 /// The exact solution, or null where the case names none.
 std::unique_ptr<analytic::PlaneSolution> make_plane_exact(const Case&);
 analytic::PlaneMedium medium_of(const PlateSpec&);
-/// The lattice of an elastic plate that a flyer strikes.
-analytic::ImpactLattice::Parameters impact_lattice(const PlateSpec&, const Leaf&, double time_step);
+/// The lattice of an elastic plate that a flyer strikes; nothing where there is no theory of the panel.
+std::optional<analytic::ImpactLattice::Parameters> impact_lattice(const PlateSpec&, const Leaf&, double time_step);
 analytic::FrontProfile profile_of(diffusion::Profile);
-analytic::PlaneDiscretisation plane_discretisation(const PlateSpec&, const Leaf&, double time_step);
+/// The panel's scheme and grid as theory sees them; nothing where there is none.
+std::optional<analytic::PlaneDiscretisation> plane_discretisation(const PlateSpec&, const Leaf&, double time_step);
 
-/// Diffusivity and source of a scene of diffusion alone.
-struct DiffusionScene {
-  std::function<double(double x, double y)> diffusivity;
-  std::function<double(double x, double y, double t)> rate;  ///< empty: none
-  std::function<double(double x, double y)> initial;         ///< empty: none
-};
+/// A scene of diffusion alone, likewise.
 DiffusionScene make_diffusion(const Case&);
 
 /// The features that the scene switches on, each with the key that does it.

@@ -597,10 +597,13 @@ void check_face(const Place& place, const std::string& what, const PlateSpec& pl
   }
 }
 
-/// What MPM cannot take.
-void check_mpm(const AxesBlock& block, const Case& c) {
-  const auto mpm = [](const std::string& method) { return method.starts_with("mpm"); };
-  if (std::none_of(block.axes.method.begin(), block.axes.method.end(), mpm)) return;
+/// What particles cannot take.
+void check_particles(const AxesBlock& block, const Case& c) {
+  const auto& methods = block.axes.method;
+  const auto moving =
+      std::find_if(methods.begin(), methods.end(), [](const std::string& method) { return panel(method).particles; });
+  if (moving == methods.end()) return;
+  const std::string family = panel(*moving).look.name;
   constexpr std::size_t most = 8;
   for (const auto& positions : block.axes.particles)
     if (positions.size() > most)
@@ -611,13 +614,13 @@ void check_mpm(const AxesBlock& block, const Case& c) {
     return s == Edge::Support::driven || s == Edge::Support::platen;
   });
   if (c.convected && (bound || !c.plate->loads.empty()))
-    block.method.say(
-        "found MPM together with finite displacements and a load, a driven side or a platen; allowed: free sides, "
-        "rollers and fixed ones: the others stand on the grid, which the particles leave");
+    block.method.say("found " + family +
+                     " together with finite displacements and a load, a driven side or a platen; allowed: free sides, "
+                     "rollers and fixed ones: the others stand on the grid, which the particles leave");
   if (c.convected && (c.plate->flyer || c.plate->viscosity || c.plate->spread))
-    block.method.say(
-        "found MPM together with finite displacements and a flyer, a failure wave or viscosity; allowed: "
-        "\"infinitesimal\": the grid follows the material");
+    block.method.say("found " + family +
+                     " together with finite displacements and a flyer, a failure wave or viscosity; allowed: "
+                     "\"infinitesimal\": the grid follows the material");
 }
 
 /// Expressions are tried at the sample times, which are read, and found wrong, only after the scene.
@@ -661,7 +664,7 @@ void read_plate_case(Table& file, Case& c) {
     });
   }
   const std::vector<AxesBlock> blocks = read_all_axes(file, c, methods_of(c), {{0.25, 0.75}});
-  for (const AxesBlock& block : blocks) check_mpm(block, c);
+  for (const AxesBlock& block : blocks) check_particles(block, c);
   file.table("sample", [&](Table& t) { read_plate_sample(t, c); });
   if (scene_is_read) {
     check_meshes(file.place("axes"), c);

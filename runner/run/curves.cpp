@@ -25,7 +25,7 @@ reports::Curve polyline(const Snapshot& snapshot, Quantity q, const Leaf& leaf, 
   reports::Curve curve;
   for (std::size_t b = 0; b < snapshot.stress.first.size(); ++b) {
     const Field field = field_of(snapshot, q).of_bar(b), displacement = snapshot.displacement.of_bar(b);
-    const bool steps = !field.edges.empty() && leaf.method == "fem";
+    const bool steps = !field.edges.empty() && panel(leaf.method).elements;
     const auto place = [&](std::size_t i, const std::vector<double>& x) {
       return moves ? x[i] + displacement.value[i] : x[i];  // particles and FEM's nodes each carry one displacement
     };
@@ -76,7 +76,7 @@ bool drawn(const Case& c, const Leaf& leaf, const std::string& kind) {
   return std::any_of(c.figures.begin(), c.figures.end(), [&](const FigureSpec& f) {
     const bool method = std::find(f.methods.begin(), f.methods.end(), leaf.method) != f.methods.end();
     return method && f.kind == kind && f.cells == leaf.cells && f.courant_of(leaf.method) == leaf.courant &&
-           f.parameters == leaf.parameters && (leaf.method == "fem" || f.particles == leaf.particles);
+           f.parameters == leaf.parameters && (!panel(leaf.method).particles || f.particles == leaf.particles);
   });
 }
 
@@ -91,15 +91,15 @@ std::vector<long> steps_of_motion(const Case& c, const Leaf& leaf, const Steppin
   for (const FigureSpec& f : c.figures) {
     if (f.kind != "motion") continue;
     add(0, static_cast<double>(stepping.steps) * stepping.time_step);
-    if (f.zoom) add(instant(c, fem_on(leaf.cells), f.zoom->t[0]), instant(c, fem_on(leaf.cells), f.zoom->t[1]));
+    if (f.zoom) add(instant(c, leaf.cells, f.zoom->t[0]), instant(c, leaf.cells, f.zoom->t[1]));
   }
   std::sort(steps.begin(), steps.end());
   steps.erase(std::unique(steps.begin(), steps.end()), steps.end());
   return steps;
 }
 
-void trace(const std::vector<Snapshot>& snapshots, const Scene& scene, const analytic::ExactSolution* exact,
-           reports::Run& run) {
+void trace_paths(const std::vector<Snapshot>& snapshots, const Scene& scene, const analytic::ExactSolution* exact,
+                 reports::Run& run) {
   constexpr int parts = 4;
   for (std::size_t b = 0; b < scene.bars.size(); ++b) {
     for (int k = 0; k <= parts; ++k) {

@@ -31,6 +31,6 @@ reports::Curve exact_line(const analytic::ExactSolution&, analytic::Quantity, co
 std::vector<long> steps_of_motion(const Case&, const Leaf&, const Stepping&);
 
 /// The paths of both ends of every bar and of three points between: `paths` and `exact_paths` of the run.
-void trace(const std::vector<Snapshot>&, const Scene&, const analytic::ExactSolution* exact, reports::Run&);
+void trace_paths(const std::vector<Snapshot>&, const Scene&, const analytic::ExactSolution* exact, reports::Run&);
 
 }  // namespace diptych::runner

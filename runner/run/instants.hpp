@@ -17,7 +17,7 @@ constexpr double round_off = 1e-12;
 /// The time step that a leaf asks for and the largest stable one. Courant number 1 is Δt = h/c of the fastest bar; of a
 /// plate h/c_d, h the smaller side of a cell; of diffusion alone h²/d with the largest diffusivity.
 struct TimeStep {
-  double asked, limit;  ///< [s]
+  double asked, limit;  ///< [s]; limit: infinite where any step is stable, NaN where none is known
   double unit;          ///< Δt of Courant number 1 [s]
 };
 

@@ -9,10 +9,6 @@
 
 namespace diptych::runner {
 
-mpm::Scheme scheme_of(const std::string& method) {
-  return method == "mpm-usf" ? mpm::Scheme::usf : method == "mpm-usl" ? mpm::Scheme::usl : mpm::Scheme::musl;
-}
-
 bool asks_for(const Case& c, const Leaf& leaf, const std::string& quantity) {
   return std::any_of(c.gates.begin(), c.gates.end(),
                      [&](const GateSpec& gate) { return gate.quantity == quantity && matches(gate.where, leaf); });
@@ -88,12 +84,6 @@ std::string why_invalid(const Case& c, const std::vector<std::string>& active, c
     }
   }
   return {};
-}
-
-std::string doubt(double residual) {
-  constexpr double allowed = 1e-4;  // room for the round-off of steep ramps; a wrong solution stands at 1
-  if (residual <= allowed) return {};
-  return fmt::format("the exact solution fails its own test: residual {:.3g}, allowed {:g}", residual, allowed);
 }
 
 }  // namespace diptych::runner

@@ -7,7 +7,6 @@
 
 #include "hinge/scene/scene.hpp"
 #include "hinge/step/record.hpp"
-#include "mpm/bar.hpp"
 #include "reports/results.hpp"
 #include "runner/input/case.hpp"
 #include "runner/input/leaf.hpp"
@@ -17,9 +16,6 @@ namespace diptych::runner {
 /// What a run keeps of its books: at least so much, and their sums where a gate or a table asks for
 /// something of them.
 Books books_of(const Case&, const Leaf&, Books least);
-
-/// Of "mpm-usf", "mpm-usl" or "mpm-musl".
-mpm::Scheme scheme_of(const std::string& method);
 
 /// Whether some gate judges this quantity of this run.
 bool asks_for(const Case&, const Leaf&, const std::string& quantity);
@@ -52,8 +48,5 @@ double bisect_limit(const std::function<bool(double courant)>& stable, double pr
 /// reached, numbers that are not finite, norms out of order.
 std::string why_invalid(const Case&, const std::vector<std::string>& active, const std::vector<std::string>& declared,
                         const reports::Run&);
-
-/// Why an exact solution whose own test finds this residual is not to be trusted, or nothing. NaN is not.
-std::string doubt(double residual);
 
 }  // namespace diptych::runner

@@ -114,13 +114,6 @@ Norms plane_error(const PointField& field, const analytic::PlaneSolution& exact,
   return {sum1 / sum, std::sqrt(sum2 / sum), largest};
 }
 
-double node_area(const diffusion::Grid& grid, std::size_t node) {
-  const auto across = static_cast<std::size_t>(grid.nx) + 1;
-  const std::size_t i = node % across, j = node / across;
-  const bool side = i == 0 || i == across - 1, end = j == 0 || j == static_cast<std::size_t>(grid.ny);
-  return grid.hx * grid.hy * (side ? 0.5 : 1) * (end ? 0.5 : 1);
-}
-
 PointField nodes_as_points(const diffusion::Grid& grid, const std::vector<double>& values, double time) {
   PointField field;
   field.time = time;
@@ -201,10 +194,11 @@ std::vector<reports::VtuPiece> vtu_fields(const Case& c, const Leaf& leaf, const
   if (!snapshot.displacement.x.empty()) {
     const auto& stress = snapshot.stress.component;
     reports::VtuPiece piece;
-    piece.name = leaf.method == "fem" ? "mesh" : "particles";
+    const bool elements = panel(leaf.method).elements;
+    piece.name = elements ? "mesh" : "particles";
     piece.mesh.x = snapshot.displacement.x;
     piece.mesh.y = snapshot.displacement.y;
-    if (leaf.method == "fem") {
+    if (elements) {
       piece.mesh.corners = 3;
       std::size_t centre = grid.nodes();
       for (int j = 0; j < grid.ny; ++j) {
@@ -216,7 +210,7 @@ std::vector<reports::VtuPiece> vtu_fields(const Case& c, const Leaf& leaf, const
       }
     }
     piece.arrays = {vectors(snapshot.displacement, "displacement"), vectors(snapshot.velocity, "velocity"),
-                    reports::vtu_stress("stress", stress[0], stress[1], stress[2], leaf.method == "fem")};
+                    reports::vtu_stress("stress", stress[0], stress[1], stress[2], elements)};
     pieces.push_back(std::move(piece));
   }
   reports::VtuPiece cells;
@@ -276,10 +270,7 @@ void measure_fields(const Case& c, const Leaf& leaf, const PlateRecord& record, 
   if (most > 0) run.measures["concentration.least"] = least / most;
 }
 
-double PlateScale::time() const { return length * std::sqrt(density / modulus); }
-double PlateScale::velocity() const { return stress / std::sqrt(modulus * density); }
-
-Plate scaled(const Plate& plate, const PlateScale& by) {
+Plate scaled(const Plate& plate, const PowersOfTwo& by) {
   Plate out = plate;
   out.width *= by.length;
   out.height *= by.length;
@@ -350,7 +341,7 @@ Plate mirrored(const Plate& plate) {
   return out;
 }
 
-double differing(const PlateRecord& a, const PlateRecord& b, const PlateScale& by, bool mirror) {
+double differing(const PlateRecord& a, const PlateRecord& b, const PowersOfTwo& by, bool mirror) {
   double count = a.snapshots.size() == b.snapshots.size() && a.outcome == b.outcome ? 0 : 1;
   bool moved = false;
   const auto compare_numbers = [&](double first, double second) {

@@ -10,6 +10,8 @@
 #include "hinge/scene/plate.hpp"
 #include "reports/results.hpp"
 #include "runner/compare/norms.hpp"
+#include "runner/diffusion_alone.hpp"
+#include "runner/input/build.hpp"
 #include "runner/input/case.hpp"
 #include "runner/input/leaf.hpp"
 
@@ -19,7 +21,6 @@ namespace diptych::runner {
 /// scale: L1 ≤ L2 ≤ L∞. Points nearer to the origin than `core` are left out. NaN anywhere makes all three NaN.
 Norms plane_error(const PointField&, const analytic::PlaneSolution&, analytic::PlaneQuantity, double core);
 
-double node_area(const diffusion::Grid&, std::size_t node);  ///< of its control volume [m²]
 PointField nodes_as_points(const diffusion::Grid&, const std::vector<double>& values, double time);
 
 reports::PlateFields damage_fields(const Case&, const Leaf&, const PlateSnapshot&);
@@ -32,19 +33,12 @@ std::vector<reports::VtuPiece> vtu_fields(const Case&, const Leaf&, const PlateS
 /// latter. "concentration.least": the least value of C met at sample times, of the largest.
 void measure_fields(const Case&, const Leaf&, const PlateRecord&, reports::Run&);
 
-/// All lengths, moduli, densities and stresses of an elastic plate multiplied by powers of two: a run must answer with
-/// the same bits, scaled.
-struct PlateScale {
-  double length = 1, modulus = 1, density = 1, stress = 1;
-  double time() const;
-  double velocity() const;
-  double displacement() const { return stress * length / modulus; }
-};
-Plate scaled(const Plate&, const PlateScale&);
+/// All lengths, moduli, densities and stresses of an elastic plate multiplied.
+Plate scaled(const Plate&, const PowersOfTwo&);
 /// The plate seen from behind: x → width − x.
 Plate mirrored(const Plate&);
 /// Numbers that differ between two records after scaling; a different number of samples counts as one more. NaN where
 /// there are only zeros.
-double differing(const PlateRecord&, const PlateRecord&, const PlateScale&, bool mirror);
+double differing(const PlateRecord&, const PlateRecord&, const PowersOfTwo&, bool mirror);
 
 }  // namespace diptych::runner

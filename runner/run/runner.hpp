@@ -1,39 +1,13 @@
 // Running a case: every leaf of its sweep, in parallel, with the same bits whatever the number of threads.
 #pragma once
 
-#include <atomic>
-#include <functional>
 #include <vector>
 
-#include "hinge/step/record.hpp"
 #include "reports/results.hpp"
 #include "runner/input/case.hpp"
-#include "runner/input/leaf.hpp"
-#include "runner/run/instants.hpp"
+#include "runner/run/run_leaf.hpp"
 
 namespace diptych::runner {
-
-/// How to run, as against what.
-struct Running {
-  int threads = 1;
-  const std::atomic<bool>* cancelled = nullptr;  ///< turns true where runs should stop soon
-  Books books = Books::off;                      ///< kept at least; their sums also where a gate asks for them
-  bool keep_fields = false;                      ///< keep all fields of plates at the sample times in the results
-  bool judged_only = false;                      ///< leave out runs that no gate of their case speaks of
-  bool cheapest_first = false;                   ///< instead of the longest, with which the threads end together
-  /// Asked before each run of the which-th case: one that is no longer wanted is left out with status "left out".
-  std::function<bool(std::size_t which, const Leaf&)> wanted = {};
-  /// Told of each run, from one thread at a time.
-  std::function<void(std::size_t which, const reports::Run&)> finished = {};
-  std::function<void(std::size_t done, std::size_t total)> progress = {};  ///< after each run, likewise
-};
-
-TimeStep step_of(const Case&, const Leaf&);
-
-/// One run of a leaf's scene, measured: errors, predictions, ledger, invariants and limits that the case's gates ask
-/// for.
-reports::Run run_leaf(const Case&, const Leaf&, const TimeStep&, const Running& = {});
-reports::Run run_leaf(const Case&, const Leaf&, const Running& = {});  ///< with the step that the leaf asks for
 
 /// Runs all leaves of all cases. Throws InputError before the first run where a leaf asks for a Courant number above
 /// the method's limit and its case does not allow it. Runs not begun when `cancelled` turns true are left out with

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "reports/figure.hpp"
+#include "runner/panel.hpp"
 #include "tests/folder.hpp"
 
 namespace {
@@ -40,6 +41,7 @@ bool has(const std::string& text, const std::string& part) { return text.find(pa
 /// A step and two ringing answers to it.
 Figure example(int panels = 2, int points = 40) {
   Figure figure;
+  figure.looks = diptych::runner::looks();
   figure.id = "fig1";
   figure.title = "Stress along a bar: mesh_II, σ & <it's> `date` $x \"q\"";
   figure.notes = {"Our choice: C = 0.5\nand one particle a cell", "@x 100 %d"};
@@ -106,6 +108,7 @@ Figure motion_diagram() {
   std::vector<double> times;
   for (int i = 0; i <= 4000; ++i) times.push_back(i / 8000.0);
   Figure figure;
+  figure.looks = diptych::runner::looks();
   figure.id = "fig4";
   figure.title = "Motion";
   figure.x_label = "position x [m]";

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "reports/bands.hpp"
+#include "runner/panel.hpp"
 #include "tests/folder.hpp"
 
 namespace {
@@ -110,6 +111,7 @@ PlateFigure::Contour quarter(const std::string& label, const std::string& kind, 
 /// FEM, MPM and their difference at so many times.
 PlateFigure example(int times = 2) {
   PlateFigure figure;
+  figure.looks = diptych::runner::looks();
   figure.id = "fig13";
   figure.title = "Damage C_d on mesh_II: 'σ' & <it's> {b} @ ^ \\ `date` $x \"q\"";
   figure.notes = {"Reconstructed parameters: ε_v1 = 0.002, K_IC, V_d,max, 1/λ_2, a_long_name, ΔC_d = 1"};

@@ -22,6 +22,7 @@ Run run(int cells) {
   Run run;
   run.case_id = "bar";
   run.method = "fem";
+  run.work_unit = "element-steps";
   run.cells = cells;
   run.courant_asked = 0.5;
   run.courant = 0.49875;
@@ -227,6 +228,8 @@ BOOST_AUTO_TEST_CASE(groups_and_own_time_levels) {
     Run r = run(cells);
     r.method = "mpm-usf";
     r.particles = "[0.5]";
+    r.work_unit = "particle-steps";
+    r.element_steps = 0;
     r.particle_steps = 77;
     r.samples[0].errors[0].time = 0.5 - 0.25 / cells;
     data.runs.push_back(r);

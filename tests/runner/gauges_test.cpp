@@ -13,7 +13,6 @@
 #include "runner/input/case_file.hpp"
 #include "runner/input/plate_build.hpp"
 #include "runner/judge/gates.hpp"
-#include "runner/run/plate_runner.hpp"
 #include "runner/run/runner.hpp"
 
 using namespace diptych;
@@ -535,7 +534,7 @@ BOOST_AUTO_TEST_CASE(the_lattice_predicts_the_elastic_plate_alone) {
   Leaf leaf;
   leaf.method = "fem";
   leaf.cells = 40;
-  const analytic::ImpactLattice lattice(impact_lattice(*c.plate, leaf, 7.5e-8));
+  const analytic::ImpactLattice lattice(*impact_lattice(*c.plate, leaf, 7.5e-8));
   PlateRecord record = seen(step, step);
   for (GaugeRecord& gauge : record.gauges) {
     gauge.time.clear();

@@ -14,7 +14,7 @@
 #include "runner/input/case_file.hpp"
 #include "runner/input/plate_build.hpp"
 #include "runner/judge/gates.hpp"
-#include "runner/run/plate_runner.hpp"
+#include "runner/run/doubt.hpp"
 #include "runner/run/runner.hpp"
 
 using namespace diptych;
@@ -417,7 +417,7 @@ BOOST_AUTO_TEST_CASE(a_plate_seen_from_behind) {
 }
 
 BOOST_AUTO_TEST_CASE(a_plate_in_other_units) {
-  const PlateScale by{2, 4, 16, 32};
+  const PowersOfTwo by{2, 4, 16, 32};
   BOOST_TEST(by.time() == 4);           // L √(ρ/E)
   BOOST_TEST(by.velocity() == 4);       // σ/√(Eρ)
   BOOST_TEST(by.displacement() == 16);  // σL/E
@@ -776,7 +776,7 @@ reason = "r"
 
 BOOST_AUTO_TEST_CASE(a_tiny_run_of_a_mode_is_compared_with_its_solution_and_its_theory) {
   const Case c = roller();
-  BOOST_TEST(doubt_plane_exact(c) == "");
+  BOOST_TEST(doubt_exact(c) == "");
   std::vector<reports::Run> runs;
   for (const Leaf& leaf : leaves(c)) runs.push_back(run_leaf(c, leaf));
   for (const auto& run : runs) {
@@ -973,7 +973,7 @@ BOOST_AUTO_TEST_CASE(a_run_that_is_asked_to_stop_stops) {
 
 BOOST_AUTO_TEST_CASE(a_run_is_described_before_it_is_run) {
   const Case c = parse_case(cracking, "t.toml");
-  const auto run = describe_plate(c, leaves(c).back());
+  const auto run = describe(c, leaves(c).back());
   BOOST_TEST((run.method == "mpm-musl" && run.parameters == "local" && run.particles == "0.25 0.75"));
   BOOST_TEST((run.status == "cancelled" && run.cell_size == 0.25 && run.unknowns == 2 * 4 * 24));
 }

@@ -9,7 +9,7 @@
 #include "runner/app/catalogue.hpp"
 #include "runner/app/provenance.hpp"
 #include "runner/input/case_file.hpp"
-#include "runner/run/measures.hpp"
+#include "runner/run/doubt.hpp"
 
 using namespace diptych;
 using namespace diptych::runner;
