@@ -18,13 +18,17 @@
 
 #include "reports/figure.hpp"
 #include "runner/panel.hpp"
+#include "tests/drawn.hpp"
 #include "tests/folder.hpp"
+#include "tests/text.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
 using diptych::tests::contents;
+using diptych::tests::drawn;
 using diptych::tests::Folder;
+using diptych::tests::holds;
 using diptych::tests::Path;
 using namespace diptych::reports;
 
@@ -35,8 +39,6 @@ Path stub(const Folder& folder, const std::string& body) {
   ::chmod(program.c_str(), 0755);
   return Path(folder.path.string() + ":/usr/bin:/bin");
 }
-
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 /// A step and two ringing answers to it.
 Figure example(int panels = 2, int points = 40) {
@@ -61,15 +63,6 @@ Figure example(int panels = 2, int points = 40) {
     figure.panels.push_back({"t = " + std::to_string(p) + " L/c, \"front\"", {exact, fem, mpm}});
   }
   return figure;
-}
-
-/// Draws with the gnuplot there is; false, with a message, where there is none.
-bool drawn(const Figure& figure, const fs::path& directory) {
-  std::string message;
-  const Drawn result = draw(figure, directory, message);
-  BOOST_TEST((result != Drawn::gnuplot_failed), message);
-  if (result == Drawn::gnuplot_missing) BOOST_TEST_MESSAGE("gnuplot is missing: no picture was checked");
-  return result == Drawn::yes;
 }
 
 const double nan_value = std::numeric_limits<double>::quiet_NaN();
@@ -212,10 +205,9 @@ std::vector<Arrow> arrows_in(const std::string& script) {
   std::vector<Arrow> all;
   std::istringstream in(script);
   for (std::string line; std::getline(in, line);) {
-    if (!line.starts_with("set arrow from ") || line.find("screen") == std::string::npos) continue;
+    if (!line.starts_with("set arrow from ") || !holds(line, "screen")) continue;
     const std::size_t to = line.find(" to "), screen = line.find("screen ", to);
-    all.push_back({std::stod(line.substr(to + 4)), std::stod(line.substr(screen + 7)),
-                   line.find(",graph 1 to ") != std::string::npos});
+    all.push_back({std::stod(line.substr(to + 4)), std::stod(line.substr(screen + 7)), holds(line, ",graph 1 to ")});
   }
   return all;
 }
@@ -254,19 +246,19 @@ BOOST_AUTO_TEST_CASE(script_data_and_picture) {
   const bool picture = drawn(figure, folder.path / "new");
   const std::string script = contents(folder.path / "new" / "fig1.gp");
   const std::string csv = contents(folder.path / "new" / "fig1.csv");
-  BOOST_TEST(has(script, "3.0000000000000004e-01"));
-  BOOST_TEST(has(script, "noenhanced"));
-  BOOST_TEST(has(script, "σ & <it''s> `date` $x \"q\"'"));
+  BOOST_TEST(holds(script, "3.0000000000000004e-01"));
+  BOOST_TEST(holds(script, "noenhanced"));
+  BOOST_TEST(holds(script, "σ & <it''s> `date` $x \"q\"'"));
   BOOST_TEST(script.ends_with("# end of fig1\n"));
   BOOST_TEST(csv.starts_with("# figure: fig1\n# title: Stress along"));
-  BOOST_TEST(has(csv, "# note: Our choice: C = 0.5 and one particle a cell\n"));
-  BOOST_TEST(has(csv, "# y: stress [Pa]\npanel,series,x,y\n"));
-  BOOST_TEST(has(csv, "\"t = 0 L/c, \"\"front\"\"\",FEM,0.0875,0.30000000000000004\n"));
+  BOOST_TEST(holds(csv, "# note: Our choice: C = 0.5 and one particle a cell\n"));
+  BOOST_TEST(holds(csv, "# y: stress [Pa]\npanel,series,x,y\n"));
+  BOOST_TEST(holds(csv, "\"t = 0 L/c, \"\"front\"\"\",FEM,0.0875,0.30000000000000004\n"));
   if (!picture) return;
   const std::string svg = contents(folder.path / "new" / "fig1.svg");
-  BOOST_TEST(has(svg, "mesh_II, σ &amp; &lt;it's> `date` $x \"q\""));
-  BOOST_TEST(has(svg, "@x 100 %d"));
-  BOOST_TEST(has(svg, "t = 1 L/c"));
+  BOOST_TEST(holds(svg, "mesh_II, σ &amp; &lt;it's> `date` $x \"q\""));
+  BOOST_TEST(holds(svg, "@x 100 %d"));
+  BOOST_TEST(holds(svg, "t = 1 L/c"));
   BOOST_TEST(std::distance(fs::directory_iterator(folder.path / "new"), fs::directory_iterator()) == 3);
 }
 
@@ -289,9 +281,9 @@ BOOST_AUTO_TEST_CASE(many_panels_and_points) {
   const Folder folder;
   drawn(example(6, 500), folder.path);
   const std::string script = contents(folder.path / "fig1.gp");
-  BOOST_TEST(has(script, "MPM (marker at every 11th point)"));
-  BOOST_TEST(has(script, " pi 11 "));
-  BOOST_TEST(has(script, "# Panel 6\n"));
+  BOOST_TEST(holds(script, "MPM (marker at every 11th point)"));
+  BOOST_TEST(holds(script, " pi 11 "));
+  BOOST_TEST(holds(script, "# Panel 6\n"));
 }
 
 BOOST_AUTO_TEST_CASE(values_that_are_not_finite) {
@@ -304,9 +296,9 @@ BOOST_AUTO_TEST_CASE(values_that_are_not_finite) {
   for (double& y : figure.panels[1].series[2].curve.y) y = nan_value;
   figure.panels[2].series.clear();
   drawn(figure, folder.path);
-  BOOST_TEST(has(contents(folder.path / "fig1.gp"), " nan\n"));
-  BOOST_TEST(has(contents(folder.path / "fig1.gp"), "[no finite values: MPM]"));
-  BOOST_TEST(has(contents(folder.path / "fig1.csv"), ",nan\n"));
+  BOOST_TEST(holds(contents(folder.path / "fig1.gp"), " nan\n"));
+  BOOST_TEST(holds(contents(folder.path / "fig1.gp"), "[no finite values: MPM]"));
+  BOOST_TEST(holds(contents(folder.path / "fig1.csv"), ",nan\n"));
 }
 
 BOOST_AUTO_TEST_CASE(no_line_crosses_the_gap_between_two_bars) {
@@ -319,8 +311,8 @@ BOOST_AUTO_TEST_CASE(no_line_crosses_the_gap_between_two_bars) {
   BOOST_TEST(std::isnan(all[1].points.x[50]));
   BOOST_TEST(std::isnan(all[1].points.y[50]));
   const std::string csv = contents(folder.path / "fig1.csv");
-  BOOST_TEST(has(csv, "\n# nan: a line ends here; the next row begins a new one\npanel,series,x,y\n"));
-  BOOST_TEST(has(csv, "FEM,0.495,-0.5\n\"t = 0 L/c, \"\"front\"\"\",FEM,nan,nan\n"));
+  BOOST_TEST(holds(csv, "\n# nan: a line ends here; the next row begins a new one\npanel,series,x,y\n"));
+  BOOST_TEST(holds(csv, "FEM,0.495,-0.5\n\"t = 0 L/c, \"\"front\"\"\",FEM,nan,nan\n"));
   if (!picture) return;
   const std::string svg = contents(folder.path / "fig1.svg");
   for (const std::string& colour : {fem_colour, exact_colour}) {
@@ -342,8 +334,8 @@ BOOST_AUTO_TEST_CASE(each_bar_begins_with_a_marker) {
   BOOST_TEST(all[2].breaks() == 1U);
   BOOST_TEST(all[3].style == "points ls 3");
   // 199 steps go over 261 px: markers 7.5 px apart are 5.7 points apart, the next odd number is 7.
-  BOOST_TEST(has(script, " pi 7 "));
-  BOOST_TEST(has(script, "'MPM (marker at every 7th point)'"));
+  BOOST_TEST(holds(script, " pi 7 "));
+  BOOST_TEST(holds(script, "'MPM (marker at every 7th point)'"));
   const Curve& marked = all[3].points;
   BOOST_TEST_REQUIRE(marked.x.size() == 58U);  // 200 / 7, rounded up, for each bar
   for (std::size_t i = 0; i < 29; ++i) {
@@ -357,13 +349,13 @@ BOOST_AUTO_TEST_CASE(motion_diagram_shows_the_flight_and_the_contact) {
   const Folder folder;
   const bool picture = drawn(motion_diagram(), folder.path);
   const std::string script = contents(folder.path / "fig4.gp");
-  BOOST_TEST(has(script, "set xrange [0:1.5]; set yrange [0:0.5]\nset format x '%g'; set format y '%g'\n"));
-  BOOST_TEST(has(script, "set xrange [0.7:0.8]; set yrange [0.245:0.265]\nset format x '%g'; set format y '%g'\n"));
-  BOOST_TEST(has(script, "rectangle from 0.7,0.245 to 0.8,0.265 "));  // in the first panel: what the second magnifies
+  BOOST_TEST(holds(script, "set xrange [0:1.5]; set yrange [0:0.5]\nset format x '%g'; set format y '%g'\n"));
+  BOOST_TEST(holds(script, "set xrange [0.7:0.8]; set yrange [0.245:0.265]\nset format x '%g'; set format y '%g'\n"));
+  BOOST_TEST(holds(script, "rectangle from 0.7,0.245 to 0.8,0.265 "));  // in the first panel: what the second magnifies
   BOOST_TEST(script.find(" rectangle ") < script.find("# Panel 2\n"));
   BOOST_TEST(script.find(" rectangle ") == script.rfind(" rectangle "));
   BOOST_TEST(script.find("unset object") < script.find("# Panel 2\n"));
-  BOOST_TEST(has(script, "size 900,"));
+  BOOST_TEST(holds(script, "size 900,"));
   const auto margins = [&](int panel) {
     const std::size_t at = script.find("set tmargin", script.find("# Panel " + std::to_string(panel) + "\n"));
     return script.substr(at, script.find('\n', at) - at);
@@ -410,7 +402,7 @@ BOOST_AUTO_TEST_CASE(a_line_crosses_a_panel_without_a_point_in_it) {
   figure.panels[0].series = {{"exact", "exact", {{0, 1.5}, {0, 0.51}}}, {"FEM", "fem", {{0, 0.1}, {0.2, 0.3}}}};
   const bool picture = drawn(figure, folder.path);
   const std::string script = contents(folder.path / "fig4.gp");
-  BOOST_TEST(has(script, "'contact [outside the axes: FEM]'"));
+  BOOST_TEST(holds(script, "'contact [outside the axes: FEM]'"));
   if (!picture) return;
   const std::vector<Curve> lines = lines_in(contents(folder.path / "fig4.svg"), exact_colour);
   BOOST_TEST_REQUIRE(lines.size() == 1U);
@@ -422,14 +414,14 @@ BOOST_AUTO_TEST_CASE(a_panel_that_magnifies_one_axis_alone_is_framed_too) {
   Figure figure = motion_diagram();
   figure.panels[1].x_range.reset();
   drawn(figure, folder.path);
-  BOOST_TEST(has(contents(folder.path / "fig4.gp"), "rectangle from 0,0.245 to 1.5,0.265 "));
+  BOOST_TEST(holds(contents(folder.path / "fig4.gp"), "rectangle from 0,0.245 to 1.5,0.265 "));
   figure.panels[1].x_range = {{0.7, 0.8}};
   figure.panels[1].y_range.reset();
   drawn(figure, folder.path);
-  BOOST_TEST(has(contents(folder.path / "fig4.gp"), "rectangle from 0.7,0 to 0.8,0.5 "));
+  BOOST_TEST(holds(contents(folder.path / "fig4.gp"), "rectangle from 0.7,0 to 0.8,0.5 "));
   figure.panels[1].x_range.reset();  // the same axes: nothing is magnified
   drawn(figure, folder.path);
-  BOOST_TEST(!has(contents(folder.path / "fig4.gp"), "rectangle"));
+  BOOST_TEST(!holds(contents(folder.path / "fig4.gp"), "rectangle"));
 }
 
 BOOST_AUTO_TEST_CASE(methods_that_agree_take_turns_with_their_markers) {
@@ -458,10 +450,10 @@ BOOST_AUTO_TEST_CASE(panels_with_axes_of_their_own) {
   figure.panels[2].y_label = "velocity [m/s]";
   drawn(figure, folder.path);
   const std::string script = contents(folder.path / "fig1.gp");
-  BOOST_TEST(has(script, "set xrange [0:1]; set yrange [-1:2]\n"));
-  BOOST_TEST(has(script, "set xrange [0:1]; set yrange [-7:9]\n"));
+  BOOST_TEST(holds(script, "set xrange [0:1]; set yrange [-1:2]\n"));
+  BOOST_TEST(holds(script, "set xrange [0:1]; set yrange [-7:9]\n"));
   BOOST_TEST(script.rfind("set yrange [-1:2]") > script.find("# Panel 3"));
-  BOOST_TEST(!has(script, "set format x ''"));  // a label of its own without tick labels would be read for another's
+  BOOST_TEST(!holds(script, "set format x ''"));  // a label of its own without tick labels would be read for another's
   const auto times = [&](const std::string& words) {
     int count = 0;
     for (std::size_t at = 0; (at = script.find("set label '" + words + "'", at)) != std::string::npos; ++at) ++count;
@@ -471,7 +463,7 @@ BOOST_AUTO_TEST_CASE(panels_with_axes_of_their_own) {
   BOOST_TEST(times("distance [mm]") == 1);
   BOOST_TEST(times("stress [Pa]") == 2);
   BOOST_TEST(times("velocity [m/s]") == 1);
-  BOOST_TEST(has(contents(folder.path / "fig1.csv"), "# y of panel 't = 2 L/c, \"front\"': velocity [m/s]\npanel,"));
+  BOOST_TEST(holds(contents(folder.path / "fig1.csv"), "# y of panel 't = 2 L/c, \"front\"': velocity [m/s]\npanel,"));
 }
 
 BOOST_AUTO_TEST_CASE(a_plain_figure_has_nothing_of_motion_diagrams) {
@@ -479,40 +471,40 @@ BOOST_AUTO_TEST_CASE(a_plain_figure_has_nothing_of_motion_diagrams) {
   drawn(example(3, 500), folder.path);
   const std::string script = contents(folder.path / "fig1.gp");
   for (const char* command : {"set clip", "object", "nan", "graph", "style line 109", "style line 110"})
-    BOOST_TEST(!has(script, command), command);
+    BOOST_TEST(!holds(script, command), command);
   BOOST_TEST(script.find("set xrange") == script.rfind("set xrange"));
-  BOOST_TEST(has(script, "set format x ''"));
+  BOOST_TEST(holds(script, "set format x ''"));
   const std::vector<Drawing> all = drawings(script, 1);
   BOOST_TEST_REQUIRE(all.size() == 3U);
   BOOST_TEST(all[2].style == "linespoints ls 3");
-  BOOST_TEST(!has(contents(folder.path / "fig1.csv"), "nan"));
+  BOOST_TEST(!holds(contents(folder.path / "fig1.csv"), "nan"));
 }
 
 BOOST_AUTO_TEST_CASE(spans_and_marks_stand_at_their_numbers) {
   const Folder folder;
   const bool picture = drawn(histories(), folder.path);
   const std::string script = contents(folder.path / "fig5.gp");
-  BOOST_TEST(has(script, "set xrange [0:7]; set yrange [-1:5]\n"));  // no label lifts the axis
+  BOOST_TEST(holds(script, "set xrange [0:7]; set yrange [-1:5]\n"));  // no label lifts the axis
   const std::string first = panel_of(script, 1), second = panel_of(script, 2);
   for (const std::string range : {"1.1,graph 0 to 2.3", "2.8,graph 0 to 4.6", "4.3,graph 0 to 5.4", "5.6,graph 0 to 7"})
-    BOOST_TEST(has(first, "set object rectangle from " + range + ",graph 1 behind "), range);
+    BOOST_TEST(holds(first, "set object rectangle from " + range + ",graph 1 behind "), range);
   for (const std::string x : {"1.1", "2.3", "2.8", "4.6", "4.3", "5.4", "5.6"})  // not where the panel cuts one
-    BOOST_TEST(has(first, "set arrow from " + x + ",graph 0 to " + x + ",graph 1 nohead back ls 11"), x);
-  BOOST_TEST(!has(first, "set arrow from 7,"));
-  BOOST_TEST(has(first, "set arrow from 0.9,graph 0 to 0.9,graph 1 nohead front ls 109\n"));
-  BOOST_TEST(has(first, "set arrow from 2.6,graph 0 to 2.6,graph 1 nohead front ls 109\n"));
-  BOOST_TEST(has(first, "set arrow from graph 0,first 4.25 to graph 1,first 4.25 nohead front ls 109\n"));
+    BOOST_TEST(holds(first, "set arrow from " + x + ",graph 0 to " + x + ",graph 1 nohead back ls 11"), x);
+  BOOST_TEST(!holds(first, "set arrow from 7,"));
+  BOOST_TEST(holds(first, "set arrow from 0.9,graph 0 to 0.9,graph 1 nohead front ls 109\n"));
+  BOOST_TEST(holds(first, "set arrow from 2.6,graph 0 to 2.6,graph 1 nohead front ls 109\n"));
+  BOOST_TEST(holds(first, "set arrow from graph 0,first 4.25 to graph 1,first 4.25 nohead front ls 109\n"));
   BOOST_TEST(first.find("behind") < first.find("\nplot "));
-  BOOST_TEST(has(first, "unset label; unset object; unset arrow\n"));
+  BOOST_TEST(holds(first, "unset label; unset object; unset arrow\n"));
   for (const std::string word : {"object", "arrow"})
-    BOOST_TEST(!has(second, word), word);  // they are the first's alone
+    BOOST_TEST(!holds(second, word), word);  // they are the first's alone
   // Told apart by dashes: one look for each kind, also of its bar, and one for marks.
   for (const std::string look : {"110 lw 1.1 lc rgb '#1f5f8b'  # edges of spans of kind 'intact'",
                                  "111 lw 1.1 lc rgb '#8a5a00' dt (9,4)  # edges of spans of kind 'failed'",
                                  "112 lw 1.1 lc rgb '#00604a' dt (2,3)  # edges of spans of kind 'release'",
                                  "109 lw 0.9 lc rgb '#333333' dt (10,3,2,3)  # marks"})
-    BOOST_TEST(has(script, "set style line " + look + "\n"), look);
-  BOOST_TEST(!has(script, "set style line 113 "));
+    BOOST_TEST(holds(script, "set style line " + look + "\n"), look);
+  BOOST_TEST(!holds(script, "set style line 113 "));
   for (const auto& [x, ls] : {std::pair{"1.1", "110"}, {"2.8", "111"}, {"4.3", "112"}, {"5.6", "110"}}) {
     const std::size_t edge = first.find(std::string("set arrow from ") + x + ",graph 0");
     BOOST_TEST(first.substr(edge, first.find('\n', edge) - edge).ends_with(std::string(" ls ") + ls), x);
@@ -608,16 +600,16 @@ BOOST_AUTO_TEST_CASE(words_of_spans_and_marks_stay_as_they_are) {
   const std::string script = contents(folder.path / "fig5.gp"), csv = contents(folder.path / "fig5.csv");
   const std::string in_quotes = "'σ_{xx}^2 @b {c} \\n `date` $x %d & <it''s> ";
   for (const std::string end : {"span'", "upright'", "level'"})
-    BOOST_TEST(has(script, "set label " + in_quotes + end + " at screen "), end);
-  BOOST_TEST(has(script, "  # edges of spans of kind 'k''i n_d'\n"));
+    BOOST_TEST(holds(script, "set label " + in_quotes + end + " at screen "), end);
+  BOOST_TEST(holds(script, "  # edges of spans of kind 'k''i n_d'\n"));
   const std::string panel = " of panel 'longitudinal': ";
-  BOOST_TEST(has(csv, "# span" + panel + "x from 1 to 2, k'i n_d: " + nasty + " span\n"));
-  BOOST_TEST(has(csv, "# mark" + panel + "x = 3: " + nasty + " upright\n"));
-  BOOST_TEST(has(csv, "# mark" + panel + "y = 2: " + nasty + " level\n"));
+  BOOST_TEST(holds(csv, "# span" + panel + "x from 1 to 2, k'i n_d: " + nasty + " span\n"));
+  BOOST_TEST(holds(csv, "# mark" + panel + "x = 3: " + nasty + " upright\n"));
+  BOOST_TEST(holds(csv, "# mark" + panel + "y = 2: " + nasty + " level\n"));
   if (!picture) return;
   const std::string svg = contents(folder.path / "fig5.svg");
   for (const std::string end : {"span", "upright", "level"})
-    BOOST_TEST(has(svg, "σ_{xx}^2 @b {c} \\n `date` $x %d &amp; &lt;it's> " + end), end);
+    BOOST_TEST(holds(svg, "σ_{xx}^2 @b {c} \\n `date` $x %d &amp; &lt;it's> " + end), end);
 }
 
 BOOST_AUTO_TEST_CASE(data_of_spans_and_marks) {
@@ -626,16 +618,16 @@ BOOST_AUTO_TEST_CASE(data_of_spans_and_marks) {
   figure.panels[1].spans = {{0.1 + 0.2, 0.5, "late", ""}};
   drawn(figure, folder.path);
   const std::string csv = contents(folder.path / "fig5.csv");
-  BOOST_TEST(has(csv,
-                 "# span of panel 'longitudinal': x from 1.1 to 2.3, intact: window 1: behind the shock\n"
-                 "# span of panel 'longitudinal': x from 2.8 to 4.6, failed: window 2: behind the failure wave\n"
-                 "# span of panel 'longitudinal': x from 4.3 to 5.4, release: window 3\n"
-                 "# span of panel 'longitudinal': x from 5.6 to 7.5, intact: window 4\n"
-                 "# mark of panel 'longitudinal': x = 0.9: shock\n"
-                 "# mark of panel 'longitudinal': x = 2.6: failure wave\n"
-                 "# mark of panel 'longitudinal': y = 4.25: plateau\n"
-                 "# span of panel 'lateral': x from 0.30000000000000004 to 0.5: late\n"
-                 "panel,series,x,y\n"));
+  BOOST_TEST(holds(csv,
+                   "# span of panel 'longitudinal': x from 1.1 to 2.3, intact: window 1: behind the shock\n"
+                   "# span of panel 'longitudinal': x from 2.8 to 4.6, failed: window 2: behind the failure wave\n"
+                   "# span of panel 'longitudinal': x from 4.3 to 5.4, release: window 3\n"
+                   "# span of panel 'longitudinal': x from 5.6 to 7.5, intact: window 4\n"
+                   "# mark of panel 'longitudinal': x = 0.9: shock\n"
+                   "# mark of panel 'longitudinal': x = 2.6: failure wave\n"
+                   "# mark of panel 'longitudinal': y = 4.25: plateau\n"
+                   "# span of panel 'lateral': x from 0.30000000000000004 to 0.5: late\n"
+                   "panel,series,x,y\n"));
 }
 
 BOOST_AUTO_TEST_CASE(spans_and_marks_out_of_sight_are_named) {
@@ -647,9 +639,9 @@ BOOST_AUTO_TEST_CASE(spans_and_marks_out_of_sight_are_named) {
   figure.panels[0].marks.push_back({-2, "low plateau", false});
   drawn(figure, folder.path);
   const std::string script = contents(folder.path / "fig5.gp");
-  BOOST_TEST(has(script, "'longitudinal [outside the axes: late window, early, late wave, low plateau]'"));
-  for (const std::string number : {"7.5", "-3", "9", "-2"}) BOOST_TEST(!has(script, "from " + number + ","), number);
-  BOOST_TEST(!has(script, "first -2"));
+  BOOST_TEST(holds(script, "'longitudinal [outside the axes: late window, early, late wave, low plateau]'"));
+  for (const std::string number : {"7.5", "-3", "9", "-2"}) BOOST_TEST(!holds(script, "from " + number + ","), number);
+  BOOST_TEST(!holds(script, "first -2"));
 }
 
 BOOST_AUTO_TEST_CASE(without_labels_there_is_no_room_for_them) {
@@ -662,9 +654,9 @@ BOOST_AUTO_TEST_CASE(without_labels_there_is_no_room_for_them) {
   drawn(figure, folder.path);
   const std::string script = contents(folder.path / "fig5.gp");
   BOOST_TEST(number_after(script, "rounded size 900,") == with - 2 * (2 * 18 + 4));  // two rows above each panel
-  BOOST_TEST(has(script, "rectangle from 1.1,"));
-  BOOST_TEST(has(script, "set arrow from 0.9,graph 0"));
-  BOOST_TEST(!has(script, "heads"));
+  BOOST_TEST(holds(script, "rectangle from 1.1,"));
+  BOOST_TEST(holds(script, "set arrow from 0.9,graph 0"));
+  BOOST_TEST(!holds(script, "heads"));
   BOOST_TEST(labels_in(panel_of(script, 1)).size() == 1U);
 }
 
@@ -679,10 +671,10 @@ BOOST_AUTO_TEST_CASE(thin_series_have_the_colour_of_their_method) {
   }
   drawn(figure, folder.path);
   const std::string script = contents(folder.path / "fig1.gp");
-  BOOST_TEST(has(script, "set style line 2 lw 1.4 lc rgb '#08306b'  # 'FEM'\n"));
-  BOOST_TEST(has(script, "set style line 4 lw 0.8 lc rgb '#08306b' dt (14,6)  # 'FEM without viscosity'\n"));
-  BOOST_TEST(has(script, "set style line 3 lc rgb '#d55e00' pt 6 "));
-  BOOST_TEST(has(script, "set style line 5 lc rgb '#d55e00' pt 2 "));
+  BOOST_TEST(holds(script, "set style line 2 lw 1.4 lc rgb '#08306b'  # 'FEM'\n"));
+  BOOST_TEST(holds(script, "set style line 4 lw 0.8 lc rgb '#08306b' dt (14,6)  # 'FEM without viscosity'\n"));
+  BOOST_TEST(holds(script, "set style line 3 lc rgb '#d55e00' pt 6 "));
+  BOOST_TEST(holds(script, "set style line 5 lc rgb '#d55e00' pt 2 "));
   const std::vector<Drawing> all = drawings(script, 1);
   BOOST_TEST_REQUIRE(all.size() == 5U);
   BOOST_TEST(all[3].style == "lines ls 4");
@@ -711,9 +703,9 @@ BOOST_AUTO_TEST_CASE(missing_gnuplot_leaves_script_and_data) {
   const Path nowhere(empty.path.string());
   std::string message;
   BOOST_TEST((draw(example(), folder.path, message) == Drawn::gnuplot_missing));
-  BOOST_TEST(has(message, "No such file"));
+  BOOST_TEST(holds(message, "No such file"));
   BOOST_TEST(contents(folder.path / "fig1.gp").ends_with("# end of fig1\n"));
-  BOOST_TEST(has(contents(folder.path / "fig1.csv"), "panel,series,x,y"));
+  BOOST_TEST(holds(contents(folder.path / "fig1.csv"), "panel,series,x,y"));
   BOOST_TEST(!fs::exists(folder.path / "fig1.svg"));
   BOOST_TEST(folder.entries() == 2U);
 }
@@ -731,7 +723,7 @@ BOOST_AUTO_TEST_CASE(failing_gnuplot_is_noticed) {
     const Path path = stub(programs, trial.body);
     std::string message;
     BOOST_TEST((draw(example(), folder.path, message) == Drawn::gnuplot_failed), trial.body);
-    BOOST_TEST(has(message, trial.words), message);
+    BOOST_TEST(holds(message, trial.words), message);
     BOOST_TEST(folder.entries() == 2U);  // script and data, no picture, no leftovers
   }
 }

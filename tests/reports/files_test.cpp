@@ -20,12 +20,17 @@
 #include <vector>
 
 #include "tests/folder.hpp"
+#include "tests/messages.hpp"
+#include "tests/text.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
 using diptych::tests::contents;
 using diptych::tests::Folder;
+using diptych::tests::holds;
+using diptych::tests::lines;
+using diptych::tests::says;
 using namespace diptych::reports;
 
 const double not_a_number = std::numeric_limits<double>::quiet_NaN();
@@ -46,17 +51,9 @@ struct FullDisk {
   void (*handler)(int);
 };
 
-auto says(const std::string& a, const std::string& b) {
-  return [a, b](const std::runtime_error& error) {
-    const std::string text = error.what();
-    return text.find(a) != std::string::npos && text.find(b) != std::string::npos;
-  };
-}
-
 std::vector<nlohmann::json> parsed(const std::string& jsonl) {
   std::vector<nlohmann::json> found;
-  std::istringstream in(jsonl);
-  for (std::string line; std::getline(in, line);) found.push_back(nlohmann::json::parse(line));
+  for (const std::string& line : lines(jsonl)) found.push_back(nlohmann::json::parse(line));
   return found;
 }
 
@@ -139,9 +136,9 @@ BOOST_AUTO_TEST_CASE(full_disk_keeps_the_old_file) {
   {
     const FullDisk full(1000);
     BOOST_CHECK_EXCEPTION(write_file(path, std::string(5000, 'x')), std::runtime_error,
-                          says(path.string(), "File too large"));
+                          says({path.string(), "File too large"}));
     BOOST_CHECK_EXCEPTION(write_file(folder.path / "other.txt", std::string(5000, 'x')), std::runtime_error,
-                          says("other.txt", "File too large"));
+                          says({"other.txt", "File too large"}));
   }
   BOOST_TEST(contents(path) == "good");
   BOOST_TEST(folder.entries() == 1U);  // neither a temporary nor a half-written file
@@ -152,7 +149,8 @@ BOOST_AUTO_TEST_CASE(devices_are_written_to_not_replaced) {
     BOOST_TEST_MESSAGE("no /dev/full here");
     return;
   }
-  BOOST_CHECK_EXCEPTION(write_file("/dev/full", "x"), std::runtime_error, says("/dev/full", "No space left on device"));
+  BOOST_CHECK_EXCEPTION(write_file("/dev/full", "x"), std::runtime_error,
+                        says({"/dev/full", "No space left on device"}));
   BOOST_TEST(fs::is_character_file("/dev/full"));
   write_file("/dev/null", "x");
   BOOST_TEST(fs::is_character_file("/dev/null"));
@@ -162,13 +160,13 @@ BOOST_AUTO_TEST_CASE(impossible_places) {
   const Folder folder;
   write_file(folder.path / "file", "x");
   BOOST_CHECK_EXCEPTION(write_file(folder.path / "file" / "below", "y"), std::runtime_error,
-                        says("file/below", "Not a directory"));
-  BOOST_CHECK_EXCEPTION(write_file(folder.path, "y"), std::runtime_error, says(folder.path.string(), "directory"));
+                        says({"file/below", "Not a directory"}));
+  BOOST_CHECK_EXCEPTION(write_file(folder.path, "y"), std::runtime_error, says({folder.path.string(), "directory"}));
   BOOST_CHECK_THROW(write_file("", "y"), std::runtime_error);
   BOOST_TEST(contents(folder.path / "file") == "x");
   if (::geteuid() != 0) {  // root may write anywhere
     fs::permissions(folder.path, fs::perms::owner_read | fs::perms::owner_exec);
-    BOOST_CHECK_EXCEPTION(write_file(folder.path / "new", "y"), std::runtime_error, says("new", "Permission denied"));
+    BOOST_CHECK_EXCEPTION(write_file(folder.path / "new", "y"), std::runtime_error, says({"new", "Permission denied"}));
     fs::permissions(folder.path, fs::perms::owner_all);
   }
   BOOST_TEST(folder.entries() == 1U);
@@ -246,9 +244,9 @@ BOOST_AUTO_TEST_CASE(junit_reads_back) {
   BOOST_TEST(!tests[0].first_child());
   const auto failure = tests[1].child("failure");
   BOOST_TEST(failure.attribute("message").value() == std::string("slope 0.2 < 0.4 & falling?"));
-  BOOST_TEST(std::string(failure.text().get()).find("judged 0.2 in [0.4, 0.6]") != std::string::npos);
+  BOOST_TEST(holds(failure.text().get(), "judged 0.2 in [0.4, 0.6]"));
   BOOST_TEST(tests[2].child("error").attribute("type").value() == std::string("UNSTABLE"));
-  BOOST_TEST(std::string(tests[2].child("error").text().get()).find("judged nan") != std::string::npos);
+  BOOST_TEST(holds(tests[2].child("error").text().get(), "judged nan"));
   BOOST_TEST(tests[3].child("error").attribute("type").value() == std::string("INVALID"));
   BOOST_TEST(tests[4].child("error").attribute("type").value() == std::string("ERROR"));
 }

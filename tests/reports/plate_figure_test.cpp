@@ -19,41 +19,25 @@
 
 #include "reports/bands.hpp"
 #include "runner/panel.hpp"
+#include "tests/drawn.hpp"
 #include "tests/folder.hpp"
+#include "tests/text.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
 using diptych::tests::contents;
+using diptych::tests::drawn;
 using diptych::tests::Folder;
+using diptych::tests::holds;
 using diptych::tests::Path;
+using diptych::tests::scripted;
 using namespace diptych::reports;
-
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 int count(const std::string& text, const std::string& part) {
   int n = 0;
   for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; at += part.size()) ++n;
   return n;
-}
-
-/// Draws with the gnuplot there is; false, with a message, where there is none.
-template <class AnyFigure>
-bool drawn(const AnyFigure& figure, const fs::path& directory) {
-  std::string message;
-  const Drawn result = draw(figure, directory, message);
-  BOOST_TEST((result != Drawn::gnuplot_failed), message);
-  if (result == Drawn::gnuplot_missing) BOOST_TEST_MESSAGE("gnuplot is missing: no picture was checked");
-  return result == Drawn::yes;
-}
-
-/// The script alone, which is written without gnuplot, too.
-template <class AnyFigure>
-std::string scripted(const AnyFigure& figure, const fs::path& directory) {
-  const Path nowhere(directory.string());
-  std::string message;
-  BOOST_TEST((draw(figure, directory, message) == Drawn::gnuplot_missing));
-  return contents(directory / (figure.id + ".gp"));
 }
 
 /// Draws again as a user does: the same picture, and gnuplot has nothing to say. (In a locale without a degree sign it
@@ -283,17 +267,17 @@ BOOST_AUTO_TEST_CASE(script_data_and_picture) {
   const bool picture = drawn(figure, folder.path / "new");
   const std::string script = contents(folder.path / "new" / "fig13.gp"),
                     csv = contents(folder.path / "new" / "fig13.csv");
-  BOOST_TEST(has(script, "\n0.30000000000000004 "));
+  BOOST_TEST(holds(script, "\n0.30000000000000004 "));
   BOOST_TEST(script.ends_with("# end of fig13\n"));
-  BOOST_TEST(has(csv, "# note: Reconstructed parameters"));
-  BOOST_TEST(has(csv, "panel,part,label,line,x,y,value\n"));
-  BOOST_TEST(has(csv, "\"MPM, t = 0 ms\",map,C_d [-],,0.5,0,0.3333333333333333\n"));
-  BOOST_TEST(has(csv, "\"FEM, t = 0 ms\",fem,level 0.3,1,0.30000000000000004,"));
+  BOOST_TEST(holds(csv, "# note: Reconstructed parameters"));
+  BOOST_TEST(holds(csv, "panel,part,label,line,x,y,value\n"));
+  BOOST_TEST(holds(csv, "\"MPM, t = 0 ms\",map,C_d [-],,0.5,0,0.3333333333333333\n"));
+  BOOST_TEST(holds(csv, "\"FEM, t = 0 ms\",fem,level 0.3,1,0.30000000000000004,"));
   BOOST_TEST(count(csv, ",map,") == 6 * 11 * 16);
   BOOST_TEST(count(csv, ",fem,") == 4 * 2 * 31);
   if (!picture) return;
   const std::string svg = contents(folder.path / "new" / "fig13.svg");
-  BOOST_TEST(has(svg, " on mesh_II: 'σ' &amp; &lt;it's> {b} @ ^ \\ `date` $x \"q\""));
+  BOOST_TEST(holds(svg, " on mesh_II: 'σ' &amp; &lt;it's> {b} @ ^ \\ `date` $x \"q\""));
   BOOST_TEST(std::distance(fs::directory_iterator(folder.path / "new"), fs::directory_iterator()) == 3);
   draws_again_in_silence(figure, folder.path / "new");
   const Folder other;
@@ -306,7 +290,7 @@ BOOST_AUTO_TEST_CASE(symbols_have_their_index_and_names_keep_their_bars) {
   const Folder folder;
   const std::string script = scripted(example(), folder.path);
   for (const char* part : {"C_{d}", "mesh\\_II", "ε_{v1}", "K_{IC}", "V_{d},max", "λ_{2}", "a\\_long\\_name", "ΔC_{d}"})
-    BOOST_TEST(has(script, part), part);
+    BOOST_TEST(holds(script, part), part);
 }
 
 BOOST_AUTO_TEST_CASE(a_metre_is_as_long_across_as_up) {
@@ -340,8 +324,8 @@ BOOST_AUTO_TEST_CASE(methods_differ_without_colour) {
   int fem = 0, mpm = 0;
   for (std::size_t at = 0; (at = svg.find("<path stroke='rgb(", at)) != std::string::npos; ++at) {
     const std::string tag = svg.substr(at, svg.find("d='", at) - at);
-    const bool dashed = has(tag, "stroke-dasharray"), of_fem = has(tag, "rgb(  8,  48, 107)"),
-               of_mpm = has(tag, "rgb(213,  94,   0)");
+    const bool dashed = holds(tag, "stroke-dasharray"), of_fem = holds(tag, "rgb(  8,  48, 107)"),
+               of_mpm = holds(tag, "rgb(213,  94,   0)");
     if (of_fem || of_mpm) BOOST_TEST(dashed == of_mpm);
     fem += of_fem ? 1 : 0;
     mpm += of_mpm ? 1 : 0;
@@ -359,11 +343,11 @@ BOOST_AUTO_TEST_CASE(levels_are_named_once) {
   for (const int panel : {1, 2})
     for (const char* level : {"level 0.3", "level 0.6"}) BOOST_TEST(count(panel_of(script, panel), level) == 1);
   for (const char* level : {"inner", "outer"}) BOOST_TEST(count(panel_of(script, 3), level) == 1);
-  BOOST_TEST(!has(panel_of(scripted(example(1), folder.path), 3), "level"));
+  BOOST_TEST(!holds(panel_of(scripted(example(1), folder.path), 3), "level"));
   // The sign of the largest differences is written out.
-  BOOST_TEST(has(panel_of(script, 3), "'max +0.01'"));
-  BOOST_TEST(has(panel_of(script, 3), "'min −0.01'"));
-  BOOST_TEST(!has(panel_of(script, 1), "'max "));
+  BOOST_TEST(holds(panel_of(script, 3), "'max +0.01'"));
+  BOOST_TEST(holds(panel_of(script, 3), "'min −0.01'"));
+  BOOST_TEST(!holds(panel_of(script, 1), "'max "));
 }
 
 BOOST_AUTO_TEST_CASE(crowded_levels_do_not_cover_each_other) {
@@ -409,11 +393,11 @@ BOOST_AUTO_TEST_CASE(what_is_missing_is_named) {
     for (std::string line; std::getline(in, line);)
       if (line.starts_with("set label '")) words += line.substr(11, line.find("' at ") - 11) + " ";
   }
-  BOOST_TEST(has(words, "FEM, t = 0 ms [not reached: level 0.6]"));
-  BOOST_TEST(has(words, "MPM, t = 0 ms [not reached: level 0.3]"));
-  BOOST_TEST(has(words, "FEM − MPM, t = 0 ms [not reached: FEM 0.3] [grey: no value]"), words);
-  BOOST_TEST(has(panel_of(script, 3), "#c8c8c8"));
-  BOOST_TEST(!has(panel_of(script, 1), "#c8c8c8"));
+  BOOST_TEST(holds(words, "FEM, t = 0 ms [not reached: level 0.6]"));
+  BOOST_TEST(holds(words, "MPM, t = 0 ms [not reached: level 0.3]"));
+  BOOST_TEST(holds(words, "FEM − MPM, t = 0 ms [not reached: FEM 0.3] [grey: no value]"), words);
+  BOOST_TEST(holds(panel_of(script, 3), "#c8c8c8"));
+  BOOST_TEST(!holds(panel_of(script, 1), "#c8c8c8"));
 }
 
 BOOST_AUTO_TEST_CASE(maps_of_one_range_share_a_bar) {
@@ -444,8 +428,8 @@ BOOST_AUTO_TEST_CASE(lines_without_maps_and_breaks) {
   figure.panels[0].contours[0].lines[0].x[15] = nan_value;
   drawn(figure, folder.path);
   const std::string script = contents(folder.path / "fig13.gp");
-  BOOST_TEST(!has(script, "bands1"));
-  BOOST_TEST(!has(script, "nan"));
+  BOOST_TEST(!holds(script, "bands1"));
+  BOOST_TEST(!holds(script, "nan"));
   const std::size_t from = script.find("$contour1_1 << EOD\n");
   const std::string block = script.substr(from, script.find("\nEOD\n", from) - from);
   BOOST_TEST(count(block, "\n\n") == 1);  // the break; another blank line ends the block
@@ -495,7 +479,7 @@ BOOST_AUTO_TEST_CASE(without_gnuplot_script_and_data_remain) {
   const Path nowhere(folder.path.string());
   std::string message;
   BOOST_TEST((draw(example(1), folder.path, message) == Drawn::gnuplot_missing));
-  BOOST_TEST(has(message, "gnuplot"));
+  BOOST_TEST(holds(message, "gnuplot"));
   BOOST_TEST(fs::exists(folder.path / "fig13.gp"));
   BOOST_TEST(fs::exists(folder.path / "fig13.csv"));
   BOOST_TEST(!fs::exists(folder.path / "fig13.svg"));
@@ -513,7 +497,7 @@ BOOST_AUTO_TEST_CASE(problem_shows_its_supports_and_loads) {
     BOOST_TEST(count(script, text) == 1, text);
   for (const char* row : {"plate,height,1.5\n", "cells,across,10\n", "top,support,platen\n", "top,arrows,outward\n",
                           "left,support,roller\n", "right,support,free\n", "weak zone,radius,0.1\n"})
-    BOOST_TEST(has(csv, row), row);
+    BOOST_TEST(holds(csv, row), row);
 
   // Arrows of the load: outwards here, towards the plate if it pushes. y counts downwards.
   const auto load_arrows = [](const std::string& text) {
@@ -521,7 +505,7 @@ BOOST_AUTO_TEST_CASE(problem_shows_its_supports_and_loads) {
     std::istringstream in(text);
     for (std::string line; std::getline(in, line);) {
       std::array<double, 4> a{};
-      if (has(line, "#b2182b") && has(line, " head ") &&
+      if (holds(line, "#b2182b") && holds(line, " head ") &&
           std::sscanf(line.c_str(), "set arrow from %lf,%lf to %lf,%lf", &a[0], &a[1], &a[2], &a[3]) == 4)
         found.push_back(a);
     }

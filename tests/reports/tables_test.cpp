@@ -9,10 +9,14 @@
 #include <string>
 #include <vector>
 
+#include "tests/text.hpp"
+
 namespace {
 
 namespace tt = boost::test_tools;
 using namespace diptych::reports;
+using diptych::tests::holds;
+using diptych::tests::lines;
 
 const double not_a_number = std::numeric_limits<double>::quiet_NaN();
 const double inf = std::numeric_limits<double>::infinity();
@@ -51,20 +55,11 @@ Case example() {
   return data;
 }
 
-std::vector<std::string> lines(const std::string& text) {
-  std::vector<std::string> found;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) found.push_back(line);
-  return found;
-}
-
 std::size_t length(const std::string& text) {  // in code points
   std::size_t count = 0;
   for (const char c : text) count += (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
   return count;
 }
-
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 /// First row for so many cells in the table whose title starts with `title`.
 std::string row(const std::string& table, const std::string& title, const std::string& cells) {
@@ -150,9 +145,9 @@ BOOST_AUTO_TEST_CASE(text_shows_orders_predictions_and_scale) {
   BOOST_TEST(fine[8] == "0.800");
   BOOST_TEST(fine[10] == "0.000");
   BOOST_TEST(words(row(table, "displacement at t", "20"))[4] == "-1.000");
-  BOOST_TEST(has(table, "least-squares order:  L1 2.000 ± "));
-  BOOST_TEST(has(table, "errors divided by 2 Pa"));
-  BOOST_TEST(has(table, "bar: a bar, \"stepped\""));
+  BOOST_TEST(holds(table, "least-squares order:  L1 2.000 ± "));
+  BOOST_TEST(holds(table, "errors divided by 2 Pa"));
+  BOOST_TEST(holds(table, "bar: a bar, \"stepped\""));
   BOOST_TEST(words(row(table, "Cost", "40"))[5] == "3200");                                     // element-steps
   BOOST_TEST(table.find(row(table, "stress", "10")) < table.find(row(table, "stress", "20")));  // coarse to fine
   BOOST_TEST(table.find(row(table, "stress", "20")) < table.find(row(table, "stress", "40")));
@@ -185,9 +180,9 @@ BOOST_AUTO_TEST_CASE(nan_is_seen_and_never_zero) {
   BOOST_TEST(middle[9] == "inf");
   BOOST_TEST(fine[4] == "nan");
   BOOST_TEST(fine[6] == "1.000");
-  BOOST_TEST(has(table, "L1 -  L2 1.000"));  // no fit through a NaN
-  BOOST_TEST(has(csv_table(data), ",nan,nan,"));
-  BOOST_TEST(has(latex_table(data), "nan & nan"));
+  BOOST_TEST(holds(table, "L1 -  L2 1.000"));  // no fit through a NaN
+  BOOST_TEST(holds(csv_table(data), ",nan,nan,"));
+  BOOST_TEST(holds(latex_table(data), "nan & nan"));
 }
 
 BOOST_AUTO_TEST_CASE(zero_error_has_no_order) {
@@ -196,7 +191,7 @@ BOOST_AUTO_TEST_CASE(zero_error_has_no_order) {
   const std::string table = text_table(data);
   BOOST_TEST(words(row(table, "stress", "20"))[3] == "0.000e+00");
   BOOST_TEST(words(row(table, "stress", "20"))[4] == "-");
-  BOOST_TEST(has(table, "L1 -  L2 1.000"));
+  BOOST_TEST(holds(table, "L1 -  L2 1.000"));
 }
 
 BOOST_AUTO_TEST_CASE(runs_without_numbers_say_why) {
@@ -208,18 +203,18 @@ BOOST_AUTO_TEST_CASE(runs_without_numbers_say_why) {
   data.runs.push_back(run(160));
   data.runs.back().samples.clear();
   const std::string table = text_table(data);
-  BOOST_TEST(has(row(table, "stress", "10"), "refused: time step 0.2 s above the limit 0.1 s"));
-  BOOST_TEST(has(row(table, "Cost", "10"), "refused: time step"));
-  BOOST_TEST(has(row(table, "stress", "40"), "invalid: no exact solution"));
+  BOOST_TEST(holds(row(table, "stress", "10"), "refused: time step 0.2 s above the limit 0.1 s"));
+  BOOST_TEST(holds(row(table, "Cost", "10"), "refused: time step"));
+  BOOST_TEST(holds(row(table, "stress", "40"), "invalid: no exact solution"));
   BOOST_TEST(words(row(table, "stress", "80"))[4] == "-");  // the row above has no numbers
-  BOOST_TEST(has(row(table, "stress", "160"), "no sample"));
-  BOOST_TEST(has(table, "(2 of 5 runs)"));
-  BOOST_TEST(has(table, "± n/a"));
+  BOOST_TEST(holds(row(table, "stress", "160"), "no sample"));
+  BOOST_TEST(holds(table, "(2 of 5 runs)"));
+  BOOST_TEST(holds(table, "± n/a"));
   const std::string csv = csv_table(data);
-  BOOST_TEST(has(csv, "refused,time step 0.2 s above the limit 0.1 s,,,,"));
-  BOOST_TEST(has(csv, "invalid,no exact solution at t = 0.5,,,,"));
+  BOOST_TEST(holds(csv, "refused,time step 0.2 s above the limit 0.1 s,,,,"));
+  BOOST_TEST(holds(csv, "invalid,no exact solution at t = 0.5,,,,"));
   for (Run& r : data.runs) r.status = "cancelled";
-  BOOST_TEST(has(text_table(data), "cancelled"));
+  BOOST_TEST(holds(text_table(data), "cancelled"));
 }
 
 BOOST_AUTO_TEST_CASE(groups_and_own_time_levels) {
@@ -235,10 +230,10 @@ BOOST_AUTO_TEST_CASE(groups_and_own_time_levels) {
     data.runs.push_back(r);
   }
   const std::string table = text_table(data);
-  BOOST_TEST(has(table, "== fem, Courant number 0.5 asked =="));
-  BOOST_TEST(has(table, "== mpm-usf, particles at [0.5] in the cell, Courant number 0.5 asked =="));
-  BOOST_TEST(has(table, ", stress at its own level 0.475 to 0.4875;"));
-  BOOST_TEST(has(table, "particle-steps"));
+  BOOST_TEST(holds(table, "== fem, Courant number 0.5 asked =="));
+  BOOST_TEST(holds(table, "== mpm-usf, particles at [0.5] in the cell, Courant number 0.5 asked =="));
+  BOOST_TEST(holds(table, ", stress at its own level 0.475 to 0.4875;"));
+  BOOST_TEST(holds(table, "particle-steps"));
 }
 
 // Runs with another value of a swept parameter are no refinement of each other.
@@ -254,8 +249,8 @@ BOOST_AUTO_TEST_CASE(swept_parameters_have_tables_of_their_own) {
   const std::string table = text_table(data);
   const std::string heading = "== fem, v0=1, Courant number 0.5 asked ==",
                     other = "== fem, v0=2, Courant number 0.5 asked ==";
-  BOOST_REQUIRE(has(table, heading));
-  BOOST_REQUIRE(has(table, other));
+  BOOST_REQUIRE(holds(table, heading));
+  BOOST_REQUIRE(holds(table, other));
   BOOST_TEST(words(row(table, "stress", "20"))[4] == "2.000");
   BOOST_TEST(words(row(table.substr(table.find(other)), "stress", "20"))[4] == "2.000");
   const auto rows = lines(csv_table(data));
@@ -285,9 +280,9 @@ BOOST_AUTO_TEST_CASE(csv_is_long_and_exact) {
   BOOST_TEST(head[3] == "parameters");
   BOOST_TEST(first[3].empty());
   BOOST_TEST(head[5] == "h [m]");
-  BOOST_TEST(has(rows[0], "time asked [L/c],time reached [L/c]"));
-  BOOST_TEST(has(rows[3], "\"said \"\"a, b\"\"\""));
-  BOOST_TEST(has(rows[3], "0.30000000000000004"));
+  BOOST_TEST(holds(rows[0], "time asked [L/c],time reached [L/c]"));
+  BOOST_TEST(holds(rows[3], "\"said \"\"a, b\"\"\""));
+  BOOST_TEST(holds(rows[3], "0.30000000000000004"));
   std::size_t l2_order = 0;
   while (head[l2_order] != "L2 order [-]") ++l2_order;
   BOOST_TEST(first[l2_order].empty());
@@ -300,11 +295,11 @@ BOOST_AUTO_TEST_CASE(latex_escapes) {
   data.id = "bar_1";
   data.title = "50 % of σ & {more} #1 \\ a^b ~ $x 漢";
   const std::string table = latex_table(data);
-  BOOST_TEST(has(table, R"(bar\_1: 50 \% of $\sigma$ \& \{more\} \#1 \textbackslash{} a\textasciicircum{}b)"));
-  BOOST_TEST(has(table, R"(\textasciitilde{} \$x [U+6F22])"));
-  BOOST_TEST(has(table, "\\toprule"));
-  BOOST_TEST(has(table, "\\bottomrule"));
-  BOOST_TEST(has(table, "1.250e$-$03 & 2.000"));
+  BOOST_TEST(holds(table, R"(bar\_1: 50 \% of $\sigma$ \& \{more\} \#1 \textbackslash{} a\textasciicircum{}b)"));
+  BOOST_TEST(holds(table, R"(\textasciitilde{} \$x [U+6F22])"));
+  BOOST_TEST(holds(table, "\\toprule"));
+  BOOST_TEST(holds(table, "\\bottomrule"));
+  BOOST_TEST(holds(table, "1.250e$-$03 & 2.000"));
 }
 
 BOOST_AUTO_TEST_CASE(labels_verdicts_and_headroom) {

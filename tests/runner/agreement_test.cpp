@@ -12,74 +12,30 @@
 #include "runner/input/case_file.hpp"
 #include "runner/judge/gates.hpp"
 #include "runner/judge/judging.hpp"
+#include "tests/case_text.hpp"
+#include "tests/made_runs.hpp"
+#include "tests/text.hpp"
 
 using namespace diptych;
 using namespace diptych::runner;
+using namespace diptych::tests;
 using reports::Run;
 using reports::Verdict;
 namespace tt = boost::test_tools;
 
 namespace {
 
-const char* const text = R"toml(schema = 1
-id = "t"
-title = "t"
-claim = "cross-code"
-why = "w"
-units = "SI"
-[plate]
-width = 1.0
-height = 1.0
-[material]
-model = "tensile-damage"
-E = 50e9
-nu = 0.3
-rho = 2500
-plane = "strain"
-K_IC = 1e6
-k = 5e22
-m = 7
-[damage]
-critical_strain = 0.002
-rate = "reference"
-reference_rate = 100
-[supports]
-left = "free"
-right = "free"
-bottom = "free"
-top = "platen"
-[model]
+const std::string text = head("t", "cross-code") + plate("1.0", "1.0") + rock + reference_damage +
+                         supports("free", "free", "free", "platen") + R"toml([model]
 features = ["damage", "platen"]
-[axes]
-method = ["fem", "mpm-musl"]
-cells = [10, 20, 40, 80]
-courant = [0.5]
-[sample]
+)toml" + axes({"fem", "mpm-musl"}, "10, 20, 40, 80", "0.5") +
+                         R"toml([sample]
 times = { unit = "s", at = [1.0, 2.0] }
 probes = [{ id = "p", reads = "largest" }]
-[[gate]]
-id = "probe"
-kind = "agreement"
-quantity = "probe.p"
-max = 1.0
-judged = [20, 40, 80]
-reason = "r"
-[[gate]]
-id = "contour"
-kind = "agreement"
-quantity = "contour.distance"
-level = 0.5
-max = 1.0
-judged = [20, 40, 80]
-reason = "r"
-[[gate]]
-id = "platen"
-kind = "agreement"
-quantity = "platen.history"
-max = 1.0
-judged = [20, 40, 80]
-reason = "r"
-)toml";
+)toml" + gate("probe", "agreement", "probe.p", "max = 1.0\njudged = [20, 40, 80]\n") +
+                         gate("contour", "agreement", "contour.distance",
+                              "level = 0.5\nmax = 1.0\njudged = [20, 40, 80]\n") +
+                         gate("platen", "agreement", "platen.history", "max = 1.0\njudged = [20, 40, 80]\n");
 
 /// C_d that falls along the radius and is ½ at `radius`.
 reports::PlateFields cone(int cells, double radius) {
@@ -101,13 +57,7 @@ struct Fixture {
     for (const char* method : {"fem", "mpm-musl"}) {
       const bool fem = std::string(method) == "fem";
       for (const int cells : {10, 20, 40, 80}) {
-        Run run;
-        run.method = method;
-        run.cells = cells;
-        run.courant_asked = 0.5;
-        run.particles = fem ? "" : "0.25 0.75";
-        run.cell_size = 1.0 / cells;
-        run.status = "completed";
+        Run run = made_run(method, cells, 0.5);
         const double h = run.cell_size, error = (fem ? 1 : 0.5) * h * h;
         for (const double time : {1.0, 2.0}) {
           reports::Sample sample;
@@ -142,7 +92,7 @@ struct Fixture {
   void invalid(const std::string& part, std::size_t gate = 0) {
     const auto result = judged(gate);
     BOOST_TEST((result.verdict == Verdict::invalid), "got " << to_string(result.verdict));
-    BOOST_TEST(result.message.find(part) != std::string::npos, "wanted '" << part << "' in: " << result.message);
+    BOOST_TEST(holds(result.message, part), "wanted '" << part << "' in: " << result.message);
   }
 };
 
@@ -186,7 +136,7 @@ BOOST_AUTO_TEST_CASE(methods_that_are_further_apart_than_their_meshes_let_expect
   for (const int cells : {10, 20, 40, 80}) probe("mpm-musl", cells, 1) += 0.1;  // converges, but to something else
   const auto gate = judged();
   BOOST_TEST((gate.verdict == Verdict::fail));
-  BOOST_TEST(gate.message.find("t = 2 s") != std::string::npos, gate.message);
+  BOOST_TEST(holds(gate.message, "t = 2 s"), gate.message);
   c.gates[0].times = {1.0};
   BOOST_TEST((judged().verdict == Verdict::pass));
   c.gates[0].times = {};
@@ -202,7 +152,7 @@ BOOST_AUTO_TEST_CASE(the_difference_must_shrink_where_that_is_asked) {
   probe("fem", 80, 0) = probe("mpm-musl", 80, 0) + 1.5 * apart;
   const auto gate = judged();
   BOOST_TEST((gate.verdict == Verdict::fail));
-  BOOST_TEST(gate.message.find("finest / coarsest") != std::string::npos, gate.message);
+  BOOST_TEST(holds(gate.message, "finest / coarsest"), gate.message);
   c.gates[0].shrinks = false;
   BOOST_TEST((judged().verdict == Verdict::pass));
   BOOST_TEST(judged().checks.size() == 6u);
@@ -347,7 +297,7 @@ BOOST_AUTO_TEST_CASE(methods_may_be_apart_by_a_part_of_the_value) {
   c.gates[0].apart = {0.0013, 0.0003, 0.00008};
   gate = judged();
   BOOST_TEST((gate.verdict == Verdict::fail));
-  BOOST_TEST(gate.message.find("40 cells, t = 1 s: 0.031 % apart") != std::string::npos, gate.message);
+  BOOST_TEST(holds(gate.message, "40 cells, t = 1 s: 0.031 % apart"), gate.message);
   // Alone it needs no uncertainty, and no four meshes.
   c.gates[0].max.reset();
   c.gates[0].apart = {0.00032, 0.00008};
@@ -378,12 +328,12 @@ BOOST_FIXTURE_TEST_CASE(a_probe_settles_by_what_it_spans, ProbeSettling) {
   c.gates[0].judged = {20, 40, 80};  // a trend shows in the whole span: 0.0023
   gate = judged();
   BOOST_TEST((gate.verdict == Verdict::fail));
-  BOOST_TEST(gate.message.find("fem, t = 1 s: 1.002, 1.001, 1") != std::string::npos, gate.message);
+  BOOST_TEST(holds(gate.message, "fem, t = 1 s: 1.002, 1.001, 1"), gate.message);
   c.gates[0].judged = {40, 80};
   probe("mpm-musl", 40, 1) = 0.998;
   gate = judged();
   BOOST_TEST((gate.verdict == Verdict::fail));
-  BOOST_TEST(gate.message.find("mpm-musl, t = 2 s") != std::string::npos, gate.message);
+  BOOST_TEST(holds(gate.message, "mpm-musl, t = 2 s"), gate.message);
   c.gates[0].times = {1.0};
   BOOST_TEST((judged().verdict == Verdict::pass));
 }
@@ -445,16 +395,7 @@ BOOST_AUTO_TEST_CASE(histories_are_as_far_apart_as_their_sizes) {
 
 namespace {
 
-const char* const scene = R"toml(schema = 1
-id = "t"
-title = "t"
-claim = "code-verification"
-why = "w"
-units = "SI"
-[plate]
-width = 1.0
-height = 1.0
-[diffusion]
+const std::string scene = head("t", "code-verification") + plate("1.0", "1.0") + R"toml([diffusion]
 diffusivity = 1.0
 scheme = "crank-nicolson"
 [model]
@@ -462,27 +403,11 @@ features = ["diffusion"]
 [exact]
 solution = "expressions"
 concentration = "1"
-[axes]
-method = ["diffusion"]
-cells = [20, 40]
-courant = [2.0, 1.0, 0.5, 0.25]
-[sample]
+)toml" + axes({"diffusion"}, "20, 40", "2.0, 1.0, 0.5, 0.25") +
+                          R"toml([sample]
 times = { unit = "s", at = [1.0] }
-[[gate]]
-id = "order"
-kind = "order"
-quantity = "concentration.L2"
-over = "courant"
-expect = 2.0
-band = [1.9, 2.1]
-reason = "r"
-[[gate]]
-id = "any"
-kind = "exact"
-quantity = "concentration.L2"
-max = 1
-reason = "r"
-)toml";
+)toml" + gate("order", "order", "concentration.L2", "over = \"courant\"\nexpect = 2.0\nband = [1.9, 2.1]\n") +
+                          gate("any", "exact", "concentration.L2", "max = 1\n");
 
 /// The same mesh with time steps that halve, and errors of the given order.
 struct InTime {
@@ -491,13 +416,9 @@ struct InTime {
   explicit InTime(double order) : c(parse_case(scene, "t.toml")) {
     for (const int cells : {20, 40}) {
       for (const double courant : {2.0, 1.0, 0.5, 0.25}) {
-        Run run;
-        run.method = "diffusion";
-        run.cells = cells;
-        run.cell_size = 1.0 / cells;
-        run.courant_asked = run.courant = courant;
+        Run run = made_run("diffusion", cells, courant);
+        run.courant = courant;
         run.time_step = courant * 1e-3 / cells;
-        run.status = "completed";
         reports::Sample sample;
         sample.asked = sample.time = 1;
         const double error = 0.01 * std::pow(courant, order);
@@ -515,13 +436,13 @@ struct InTime {
 BOOST_AUTO_TEST_CASE(an_order_in_time_is_a_slope_over_the_time_step_on_each_mesh) {
   const auto gate = InTime(2).judged();
   BOOST_TEST((gate.verdict == Verdict::pass), gate.message);
-  BOOST_TEST(gate.formula.find("Δt") != std::string::npos, gate.formula);
+  BOOST_TEST(holds(gate.formula, "Δt"), gate.formula);
   BOOST_REQUIRE_EQUAL(gate.checks.size(), 2u);  // one a mesh
   for (const auto& check : gate.checks) {
     BOOST_TEST(check.value == 2.0, tt::tolerance(1e-12));
-    BOOST_TEST(check.what.find("4 steps") != std::string::npos, check.what);
+    BOOST_TEST(holds(check.what, "4 steps"), check.what);
   }
-  BOOST_TEST(gate.checks[0].what.find("N=20") != std::string::npos, gate.checks[0].what);
+  BOOST_TEST(holds(gate.checks[0].what, "N=20"), gate.checks[0].what);
   BOOST_TEST((InTime(1).judged().verdict == Verdict::fail));
   BOOST_TEST((InTime(-2).judged().verdict == Verdict::fail));
 }
@@ -530,61 +451,32 @@ BOOST_AUTO_TEST_CASE(an_order_in_time_needs_different_time_steps) {
   InTime same(2);
   same.runs[1].time_step = same.runs[0].time_step;  // rounding up to whole steps may do that
   BOOST_TEST((same.judged().verdict == Verdict::invalid));
-  BOOST_TEST(same.judged().message.find("two time steps are the same") != std::string::npos, same.judged().message);
+  BOOST_TEST(holds(same.judged().message, "two time steps are the same"), same.judged().message);
   InTime few(2);
   few.runs.erase(few.runs.begin());
   BOOST_TEST((few.judged().verdict == Verdict::invalid));
-  BOOST_TEST(few.judged().message.find("3 time steps, at least 4 are needed") != std::string::npos);
+  BOOST_TEST(holds(few.judged().message, "3 time steps, at least 4 are needed"));
   // Over the mesh, the same runs are too few.
   InTime over(2);
   over.c.gates[0].over_time_step = false;
   BOOST_TEST((over.judged().verdict == Verdict::invalid));
-  BOOST_TEST(over.judged().message.find("2 meshes, at least 4 are needed") != std::string::npos);
+  BOOST_TEST(holds(over.judged().message, "2 meshes, at least 4 are needed"));
 }
 
 // ---- settling -------------------------------------------------------------------------------------------------------
 
 namespace {
 
-const char* const struck = R"toml(schema = 1
-id = "t"
-title = "t"
-claim = "cross-code"
-why = "w"
-units = "SI"
-[plate]
-width = 4.0
-rows = 1
-[material]
-model = "elastic"
-E = 1e4
-nu = 0.25
-rho = 1
-plane = "strain"
-[flyer]
+const std::string struck = head("t", "cross-code") + strip("4.0") + elastic("1e4", "0.25", "1") + R"toml([flyer]
 thickness = 2.0
 velocity = 1.0
-[supports]
-left = "free"
-right = "free"
-bottom = "roller"
-top = "roller"
-[model]
+)toml" + guided() + R"toml([model]
 features = ["elastic", "impact"]
-[axes]
-method = ["fem", "mpm-musl"]
-cells = [10, 20, 40, 80]
-courant = [0.3]
-[sample]
+)toml" + axes({"fem", "mpm-musl"}, "10, 20, 40, 80", "0.3") +
+                           R"toml([sample]
 times = { unit = "s", at = [0.01] }
 gauges = [{ id = "near", from_face = 0.5 }, { id = "far", from_face = 1.0 }]
-[[gate]]
-id = "settles"
-kind = "settling"
-quantity = "gauge.far.xx"
-max = 0.5
-reason = "r"
-)toml";
+)toml" + gate("settles", "settling", "gauge.far.xx", "max = 0.5\n");
 
 /// Histories of one shape and of size 1 + error: their distance is that of their sizes. The error is h², with MPM half.
 struct Settling {
@@ -595,13 +487,8 @@ struct Settling {
     for (const char* method : {"fem", "mpm-musl"}) {
       const bool fem = std::string(method) == "fem";
       for (const int cells : {10, 20, 40, 80}) {
-        Run run;
-        run.method = method;
-        run.cells = cells;
-        run.courant_asked = 0.3;
-        run.particles = fem ? "" : "0.25 0.75";
-        run.status = "completed";
-        const double h = 1.0 / cells;
+        Run run = made_run(method, cells, 0.3);
+        const double h = run.cell_size;
         // The other gauge and the other components settle to nothing.
         run.gauges.push_back({"near", 0.5, {0, 1}, {1, 1}, {1, 1}, {1, 1}});
         reports::GaugeHistory far{"far", 1.0, {}, {}, {}, {}};
@@ -631,7 +518,7 @@ struct Settling {
   void invalid(const std::string& part) {
     const auto result = judged();
     BOOST_TEST((result.verdict == Verdict::invalid), "got " << to_string(result.verdict) << " for " << part);
-    BOOST_TEST(result.message.find(part) != std::string::npos, "wanted '" << part << "' in: " << result.message);
+    BOOST_TEST(holds(result.message, part), "wanted '" << part << "' in: " << result.message);
   }
 };
 
@@ -664,7 +551,7 @@ BOOST_AUTO_TEST_CASE(histories_settle_where_their_distances_fall) {
   }
   both.c.gates[0].max = 0.2;  // more than second order
   BOOST_TEST((both.judged().verdict == Verdict::fail));
-  BOOST_TEST(gate.formula.find("between the methods") != std::string::npos, gate.formula);
+  BOOST_TEST(holds(gate.formula, "between the methods"), gate.formula);
 
   std::reverse(both.runs.begin(), both.runs.end());
   both.c.gates[0].max = 0.5;
@@ -685,7 +572,7 @@ BOOST_AUTO_TEST_CASE(one_distance_that_does_not_fall_fails) {
   Settling other;
   for (const int cells : {10, 20, 40, 80}) other.scale("mpm-musl", cells, 1.1);
   BOOST_TEST((other.judged().verdict == Verdict::fail));
-  BOOST_TEST(other.judged().message.find("fem and mpm-musl") != std::string::npos, other.judged().message);
+  BOOST_TEST(holds(other.judged().message, "fem and mpm-musl"), other.judged().message);
   for (const char* method : {"fem", "mpm-musl"}) {
     other.c.gates[0].where.method = {method};
     BOOST_TEST((other.judged().verdict == Verdict::pass), other.judged().message);

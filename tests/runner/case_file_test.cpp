@@ -11,9 +11,14 @@
 #include <vector>
 
 #include "runner/input/constants.hpp"
+#include "tests/broken_text.hpp"
+#include "tests/case_text.hpp"
+#include "tests/messages.hpp"
+#include "tests/text.hpp"
 
 using namespace diptych;
 using namespace diptych::runner;
+using namespace diptych::tests;
 
 namespace {
 
@@ -25,16 +30,7 @@ claim = "code-verification"
 why = "plane wave and its reflections"
 paper = { figures = ["1", "3a"] }
 units = "paper"
-[bar]
-length = 1.0
-[material]
-model = "elastic"
-E = 1e4
-rho = 1.0
-[supports]
-left = "fixed"
-right = "free"
-[[load]]
+)toml" + paper_bar + R"toml([[load]]
 at = "right"
 history = "impulse"
 traction = 2
@@ -117,13 +113,7 @@ range = [-1.5, 1.5]
 )toml";
 
 /// A smooth scene of the user's own: expressions throughout, hardening, no named solution.
-const std::string own = R"toml(schema = 1
-id = "own"
-title = "t"
-claim = "regression"
-why = "w"
-units = "SI"
-[bar]
+const std::string own = head("own", "regression") + R"toml([bar]
 length = 2
 [material]
 model = "hardening"
@@ -175,13 +165,7 @@ reason = "r"
 )toml";
 
 /// Bars that collide: every key of rows, viscosity, contact, swept parameters and figures of motion.
-const std::string row = R"toml(schema = 1
-id = "row"
-title = "t"
-claim = "code-verification"
-why = "w"
-units = "paper"
-[material]
+const std::string row = head("row", "code-verification", "paper") + R"toml([material]
 model = "elastic"
 E = 1e4
 rho = 1
@@ -280,35 +264,8 @@ parameters = { v0 = 0.5 }
 range = [-1, 1]
 )toml";
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  BOOST_REQUIRE_MESSAGE(at != std::string::npos, "the test speaks of '" + from + "', which the case lacks");
-  return text.replace(at, from.size(), to);
-}
-
 std::string message(const std::string& text) {
-  try {
-    parse_case(text, "bar.toml");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
-
-std::vector<std::string> lines(const std::string& text) {
-  std::vector<std::string> all;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) all.push_back(line);
-  return all;
-}
-
-int line_of(const std::string& text, const std::string& part) {
-  int line = 1;
-  for (const std::string& one : lines(text)) {
-    if (one.find(part) != std::string::npos) return line;
-    ++line;
-  }
-  return 0;
+  return message_of<InputError>([&] { parse_case(text, "bar.toml"); });
 }
 
 /// Some one line of the message holds all the parts, and stands at the line of the file that holds `at`.
@@ -318,9 +275,7 @@ void expect(const std::string& text, const std::string& at, const std::vector<st
   if (!at.empty()) place += std::to_string(line_of(text, at)) + ':';
   bool found = false;
   for (const std::string& line : lines(all)) {
-    bool here = line.rfind(place, 0) == 0;
-    for (const std::string& part : parts) here = here && line.find(part) != std::string::npos;
-    found = found || here;
+    found = found || (line.starts_with(place) && holds_all(line, parts));
     BOOST_TEST(line.rfind("bar.toml:", 0) == 0, "a line without its place: " << line);
   }
   std::string wanted = place;
@@ -605,12 +560,12 @@ BOOST_AUTO_TEST_CASE(a_declaration_is_canonical) {
   const Case other = parse_case(replaced(whole, "max = 1e-12", "max = 1.0000000000000002e-12"), "bar.toml");
   BOOST_TEST(other.gates[0].declaration != c.gates[0].declaration);
   const Case swept = parse_case(row, "bar.toml");
-  BOOST_TEST(swept.gates[0].declaration.find("where={method=\"fem\" parameters={v0=1}}") != std::string::npos);
-  BOOST_TEST(swept.scene.find("contact={fem=\"bonded\"}") != std::string::npos);
-  BOOST_TEST(swept.scene.find("times={at=[-1 0.5 3] from=\"contact\" unit=\"L/c\"}") != std::string::npos);
-  BOOST_TEST(swept.scene.find("parameters={v0=[0.5 1]}") != std::string::npos);
+  BOOST_TEST(holds(swept.gates[0].declaration, "where={method=\"fem\" parameters={v0=1}}"));
+  BOOST_TEST(holds(swept.scene, "contact={fem=\"bonded\"}"));
+  BOOST_TEST(holds(swept.scene, "times={at=[-1 0.5 3] from=\"contact\" unit=\"L/c\"}"));
+  BOOST_TEST(holds(swept.scene, "parameters={v0=[0.5 1]}"));
   const Case broken = parse_case(replaced(whole, "\"magic time step\"", "\"two\\nlines \\\"\""), "bar.toml");
-  BOOST_TEST(broken.gates[0].declaration.find("reason=\"two\\nlines \\\"\"") != std::string::npos);
+  BOOST_TEST(holds(broken.gates[0].declaration, "reason=\"two\\nlines \\\"\""));
 }
 
 BOOST_AUTO_TEST_CASE(unknown_keys) {
@@ -1332,7 +1287,7 @@ BOOST_AUTO_TEST_CASE(all_mistakes_at_once_in_order) {
   const auto all = lines(message(text));
   BOOST_REQUIRE_EQUAL(all.size(), 5u);
   const std::vector<std::string> parts{"bar.length", "material.rho", "axes.cells", "max", "again"};
-  for (std::size_t i = 0; i < all.size(); ++i) BOOST_TEST(all[i].find(parts[i]) != std::string::npos, all[i]);
+  for (std::size_t i = 0; i < all.size(); ++i) BOOST_TEST(holds(all[i], parts[i]), all[i]);
   BOOST_TEST(all[0] == "bar.toml:9:10: bar.length: found -1; allowed: a finite number > 0");
 }
 
@@ -1346,19 +1301,12 @@ BOOST_AUTO_TEST_CASE(files) {
   expect_alone(replaced(whole, "E = 1e4", "E = 1,5"), "E = 1,5", {"not TOML"});
   expect("title = \"\xff\xfe\"\n", "", {"not TOML"});
 
-  const auto refused = [](const fs::path& path) -> std::string {
-    try {
-      read_case(path);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
-  };
+  const auto refused = [](const fs::path& path) { return message_of<InputError>([&] { read_case(path); }); };
   char pattern[] = "/tmp/diptych-case-XXXXXX";
   BOOST_REQUIRE(::mkdtemp(pattern) != nullptr);
   const fs::path folder = pattern, file = folder / "bar.toml";
-  BOOST_TEST(refused(folder / "none.toml").find("none.toml: cannot be read: No such file") != std::string::npos);
-  BOOST_TEST(refused(folder).find("directory") != std::string::npos);
+  BOOST_TEST(holds(refused(folder / "none.toml"), "none.toml: cannot be read: No such file"));
+  BOOST_TEST(holds(refused(folder), "directory"));
   std::ofstream(file) << whole;
   BOOST_TEST(read_case(file).id == "bar.step.fixed-free");
   BOOST_TEST(read_case(file).path == file);
@@ -1408,7 +1356,6 @@ BOOST_AUTO_TEST_CASE(nearest_names) {
 /// Whatever stands in the file: a case, or a message that names its place.
 BOOST_AUTO_TEST_CASE(broken_files_never_crash) {
   std::mt19937 random(20240917);
-  const auto pick = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
   const std::vector<std::string> scraps{"0",  "-1",   "nan", "1e400", "\"\"",    "[]",  "{}",   "[[",
                                         "]]", "\n",   "=",   "\"",    ".",       "inf", "true", "-0.0",
                                         "# ", "\xc3", ",",   "{",     "\"x*t\"", "9e18"};
@@ -1420,28 +1367,7 @@ BOOST_AUTO_TEST_CASE(broken_files_never_crash) {
     }
   };
   for (const std::string& base : {whole, own, row}) {
-    for (std::size_t size = 0; size < base.size(); size += 3) survives(base.substr(0, size));
-    const auto all = lines(base);
-    for (std::size_t skipped = 0; skipped < all.size(); ++skipped) {  // each line gone, each line twice
-      std::string less, more;
-      for (std::size_t i = 0; i < all.size(); ++i) {
-        if (i != skipped) less += all[i] + "\n";
-        more += all[i] + "\n" + (i == skipped ? all[i] + "\n" : "");
-      }
-      survives(less);
-      survives(more);
-    }
-    for (const std::string& line : all) {  // each value replaced by each scrap
-      const std::size_t equals = line.find("= ");
-      if (equals == std::string::npos) continue;
-      for (const std::string& scrap : scraps) survives(replaced(base, line, line.substr(0, equals + 2) + scrap));
-    }
-    for (int i = 0; i < 2000; ++i) {
-      std::string text = base;
-      for (std::size_t n = 1 + pick(3); n > 0; --n)
-        text.replace(pick(text.size()), pick(4), scraps[pick(scraps.size())]);
-      survives(text);
-    }
+    read_broken(base, scraps, 3, 2000, random, survives);
   }
 }
 

@@ -8,54 +8,29 @@
 
 #include "runner/input/case_file.hpp"
 #include "runner/input/leaf.hpp"
+#include "tests/case_text.hpp"
+#include "tests/made_runs.hpp"
+#include "tests/text.hpp"
 
 using namespace diptych;
 using namespace diptych::runner;
+using namespace diptych::tests;
 using reports::Run;
 namespace tt = boost::test_tools;
 
 namespace {
 
-const char* const text = R"toml(schema = 1
-id = "t"
-title = "t"
-claim = "cross-code"
-why = "w"
-units = "SI"
-[plate]
-width = 1.0
-height = 1.5
-[material]
-model = "tensile-damage"
-E = 50e9
-nu = 0.3
-rho = 2500
-plane = "strain"
-K_IC = 1e6
-k = 5e22
-m = 7
-[parameters]
+const std::string text = head("t", "cross-code") + plate("1.0", "1.5") + rock + R"toml([parameters]
 p = 5e8
-[damage]
-critical_strain = 0.002
-rate = "reference"
-reference_rate = 100
-[supports]
-left = "free"
-right = "free"
-bottom = "free"
-top = "platen"
-[[load]]
+)toml" + reference_damage +
+                         supports("free", "free", "free", "platen") + R"toml([[load]]
 at = "top"
 history = "step"
 traction = "p"
 [model]
 features = ["damage", "platen"]
-[axes]
-method = ["fem", "mpm-musl"]
-cells = [4, 10, 20, 40, 80]
-courant = [0.5]
-parameters = { p = [4e8, 5e8, 6e8] }
+)toml" + axes({"fem", "mpm-musl"}, "4, 10, 20, 40, 80", "0.5") +
+                         R"toml(parameters = { p = [4e8, 5e8, 6e8] }
 [sample]
 times = { unit = "s", at = [1.0, 2.0] }
 probes = [
@@ -64,13 +39,8 @@ probes = [
   { id = "a", reads = "area", level = 0.05 },
   { id = "l", reads = "largest" },
 ]
-[[gate]]
-id = "whole"
-kind = "invariant"
-quantity = "area.error"
-max = 1
-reason = "r"
-[[figure]]
+)toml" + gate("whole", "invariant", "area.error", "max = 1\n") +
+                         R"toml([[figure]]
 id = "converges"
 kind = "convergence"
 times = [2.0]
@@ -100,14 +70,8 @@ struct Fixture {
       const bool fem = std::string(method) == "fem";
       for (const int cells : {4, 10, 20, 40, 80}) {
         for (const double p : {4e8, 5e8, 6e8}) {
-          Run run;
-          run.method = method;
-          run.cells = cells;
-          run.courant_asked = 0.5;
-          run.particles = fem ? "" : "0.25 0.75";
+          Run run = made_run(method, cells, 0.5);
           run.parameters = parameters_label(Parameters{{"p", p}});
-          run.cell_size = 1.0 / cells;
-          run.status = "completed";
           const double h = run.cell_size;
           for (const double time : {1.0, 2.0}) {
             reports::Sample sample;
@@ -126,9 +90,8 @@ struct Fixture {
   }
 };
 
-bool says(const std::vector<std::string>& notes, const std::string& part) {
-  return std::any_of(notes.begin(), notes.end(),
-                     [&](const std::string& note) { return note.find(part) != std::string::npos; });
+bool noted(const std::vector<std::string>& notes, const std::string& part) {
+  return std::any_of(notes.begin(), notes.end(), [&](const std::string& note) { return holds(note, part); });
 }
 
 }  // namespace
@@ -152,7 +115,7 @@ BOOST_AUTO_TEST_CASE(probes_stand_over_the_cell_size_with_their_bands_and_limits
   BOOST_TEST(panel.marks[0].at == 0.5, tt::tolerance(1e-6));
   BOOST_TEST(!panel.marks[0].vertical);
   BOOST_TEST((panel.y_range && (*panel.y_range)[0] < 0.5 && (*panel.y_range)[1] > 0.51));
-  BOOST_TEST(says(figure.notes, "Radii on the finest mesh at 0°, 90°: 0.5002, 0.5502 m (FEM), 10.0 % out of round"));
+  BOOST_TEST(noted(figure.notes, "Radii on the finest mesh at 0°, 90°: 0.5002, 0.5502 m (FEM), 10.0 % out of round"));
 }
 
 BOOST_AUTO_TEST_CASE(runs_that_are_missing_are_not_drawn) {
@@ -172,7 +135,7 @@ BOOST_AUTO_TEST_CASE(a_figure_says_how_far_its_mesh_is_from_settled) {
              "∫C dA by 0 %");
   for (Run& run : runs)
     if (run.method == "fem" && run.cells == 20) run.samples[0].probes[1].value = 0.8;
-  BOOST_TEST(distance_from_settled(c, c.figures[2], runs).find("off by up to 45 %") != std::string::npos);
+  BOOST_TEST(holds(distance_from_settled(c, c.figures[2], runs), "off by up to 45 %"));
   c.figures[2].cells = 80;
   BOOST_TEST(distance_from_settled(c, c.figures[2], runs).empty());
 }
@@ -189,10 +152,11 @@ BOOST_AUTO_TEST_CASE(the_load_of_rupture_is_read_between_two_loads) {
   BOOST_TEST_REQUIRE(over_size.series[0].curve.y.size() == 5u);
   BOOST_TEST(over_size.series[0].curve.y[0] == 400 + 100 * 0.9 / ruptured, tt::tolerance(1e-9));
   BOOST_TEST(over_size.series[1].curve.y[4] == 500 + 100 * 0.9 / ruptured, tt::tolerance(1e-9));
-  BOOST_TEST(says(figure.notes, "Load of rupture between 490 and 590 MPa over methods and meshes: a spread of 20.4 %"));
+  BOOST_TEST(
+      noted(figure.notes, "Load of rupture between 490 and 590 MPa over methods and meshes: a spread of 20.4 %"));
   for (Run& run : runs)
     for (auto& sample : run.samples) sample.probes[3].value = 0;
-  BOOST_TEST(says(rupture_figure(c, c.figures[1], runs).notes, "No rupture begins between 400 and 600 MPa: FEM on 4"));
+  BOOST_TEST(noted(rupture_figure(c, c.figures[1], runs).notes, "No rupture begins between 400 and 600 MPa: FEM on 4"));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -11,9 +11,12 @@
 #include <vector>
 
 #include "runner/input/case_file.hpp"
+#include "tests/messages.hpp"
+#include "tests/text.hpp"
 
 using diptych::runner::Expression;
 using diptych::runner::InputError;
+using namespace diptych::tests;
 
 namespace {
 
@@ -22,19 +25,13 @@ const std::map<std::string, double> constants{{"L", 2}, {"E", 1e4}, {"pi", std::
 double value(const std::string& formula) { return Expression(formula, {"x", "t"}, constants)(3, 5); }
 
 std::string refused(const std::string& formula) {
-  try {
-    Expression(formula, {"x", "t"}, constants);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return message_of<InputError>([&] { Expression(formula, {"x", "t"}, constants); });
 }
 
 void wrong(const std::string& formula, const std::vector<std::string>& parts) {
   const std::string message = refused(formula);
   BOOST_TEST(!message.empty(), "accepted: " << formula);
-  for (const std::string& part : parts)
-    BOOST_TEST(message.find(part) != std::string::npos, "wanted " << part << " in: " << message);
+  for (const std::string& part : parts) BOOST_TEST(holds(message, part), "wanted " << part << " in: " << message);
 }
 
 }  // namespace

@@ -8,30 +8,16 @@
 #include "runner/input/case_file.hpp"
 #include "runner/input/leaf.hpp"
 #include "runner/run/runner.hpp"
+#include "tests/case_text.hpp"
 
 using namespace diptych;
 using namespace diptych::runner;
+using namespace diptych::tests;
 using reports::Verdict;
 
 namespace {
 
-const char* const text = R"(
-schema = 1
-id = "t"
-title = "t"
-claim = "code-verification"
-why = "t"
-units = "paper"
-[bar]
-length = 1.0
-[material]
-model = "elastic"
-E = 1e4
-rho = 1.0
-[supports]
-left = "fixed"
-right = "free"
-[[load]]
+const std::string text = head("t", "code-verification", "paper") + paper_bar + R"toml([[load]]
 at = "right"
 history = "step"
 traction = 1.0
@@ -45,28 +31,10 @@ cells = [50, 100, 200, 400]
 courant = [0.5]
 [sample]
 times = { unit = "L/c", at = [0.5] }
-[[gate]]
-id = "order"
-kind = "order"
-quantity = "displacement.L2"
-expect = 1.0
-band = [0.9, 1.1]
-reason = "t"
-[[gate]]
-id = "small"
-kind = "exact"
-quantity = "displacement.L2"
-max = 0.1
-reason = "t"
-[[gate]]
-id = "constant"
-kind = "constant"
-quantity = "stress.L2"
-where = { cells = [200, 400] }
-predict = "discrete-step"
-ratio = [0.98, 1.02]
-reason = "t"
-)";
+)toml" + gate("order", "order", "displacement.L2", "expect = 1.0\nband = [0.9, 1.1]\n") +
+                         gate("small", "exact", "displacement.L2", "max = 0.1\n") +
+                         gate("constant", "constant", "stress.L2",
+                              "where = { cells = [200, 400] }\npredict = \"discrete-step\"\nratio = [0.98, 1.02]\n");
 
 struct Fixture {
   Case c = parse_case(text, "t.toml");

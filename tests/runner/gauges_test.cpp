@@ -14,9 +14,13 @@
 #include "runner/input/plate_build.hpp"
 #include "runner/judge/gates.hpp"
 #include "runner/run/runner.hpp"
+#include "tests/case_text.hpp"
+#include "tests/made_runs.hpp"
+#include "tests/text.hpp"
 
 using namespace diptych;
 using namespace diptych::runner;
+using namespace diptych::tests;
 namespace tt = boost::test_tools;
 
 namespace {
@@ -25,16 +29,13 @@ const double nan_value = std::numeric_limits<double>::quiet_NaN();
 const double infinity = std::numeric_limits<double>::infinity();
 
 /// c_d = 4 km/s and ½ρ c_d v = 1 GPa; the lateral stress is a third. 16 mm of flyer, 24 mm of target.
-const char* const failing = R"toml(schema = 1
+const std::string failing = R"toml(schema = 1
 id = "struck"
 title = "A struck plate"
 claim = "cross-code"
 why = "w"
 units = "SI"
-[plate]
-width = 40e-3
-rows = 1
-[material]
+)toml" + strip("40e-3") + R"toml([material]
 model = "failure-wave"
 E = 33333333333.333332
 nu = 0.25
@@ -49,12 +50,7 @@ profile = "constant"
 thickness = 16e-3
 velocity = 200
 gap = { value = 2, unit = "cells" }
-[supports]
-left = "free"
-right = "free"
-bottom = "roller"
-top = "roller"
-[model]
+)toml" + guided() + R"toml([model]
 features = ["diffusion", "failure-wave", "impact"]
 [[variant]]
 id = "weak"
@@ -64,11 +60,8 @@ set = { "material.f_max" = 0.25 }
 id = "slow"
 says = "below the threshold"
 set = { "flyer.velocity" = 100 }
-[axes]
-method = ["fem", "mpm-musl"]
-cells = [40]
-courant = [0.3]
-variant = ["", "weak", "slow"]
+)toml" + axes({"fem", "mpm-musl"}, "40", "0.3") +
+                            R"toml(variant = ["", "weak", "slow"]
 [sample]
 times = { unit = "s", at = [1e-6, 10e-6] }
 gauges = [{ id = "near", from_face = 4e-3 }, { id = "far", from_face = 6e-3 }]
@@ -108,54 +101,22 @@ sections = [
 )toml";
 
 /// The scene without what fails.
-const char* const elastic_text = R"toml(schema = 1
-id = "elastic"
-title = "t"
-claim = "code-verification"
-why = "w"
-units = "SI"
-[plate]
-width = 42e-3
-rows = 1
-[material]
-model = "elastic"
-E = 72.8e9
-nu = 0.222
-rho = 2563
-plane = "strain"
-[flyer]
+const std::string elastic_text = head("elastic", "code-verification") + strip("42e-3") + glass() + R"toml([flyer]
 thickness = 18e-3
 velocity = 684.0
 gap = { value = 2, unit = "cells" }
-[supports]
-left = "free"
-right = "free"
-bottom = "roller"
-top = "roller"
-[model]
+)toml" + guided() + R"toml([model]
 features = ["elastic", "impact"]
-[axes]
-method = ["fem", "mpm-usf", "mpm-usl", "mpm-musl"]
-cells = [42]
-courant = [0.3]
-[sample]
+)toml" + axes({"fem", "mpm-usf", "mpm-usl", "mpm-musl"}, "42", "0.3") +
+                                 R"toml([sample]
 times = { unit = "s", at = [8e-6] }
 gauges = [{ id = "near", from_face = 4.5e-3 }, { id = "far", from_face = 6.5e-3 }]
-[[gate]]
-id = "near"
-kind = "constant"
-quantity = "gauge.near.plateau"
-predict = "impact-lattice"
-ratio = [0.999999999, 1.000000001]
-reason = "r"
-[[gate]]
-id = "exact"
-kind = "constant"
-quantity = "gauge.near.ratio"
-predict = "plate-impact"
-ratio = [0.999999999999, 1.000000000001]
-reason = "r"
-[[gate]]
+)toml" +
+                                 gate("near", "constant", "gauge.near.plateau",
+                                      "predict = \"impact-lattice\"\nratio = [0.999999999, 1.000000001]\n") +
+                                 gate("exact", "constant", "gauge.near.ratio",
+                                      "predict = \"plate-impact\"\nratio = [0.999999999999, 1.000000000001]\n") +
+                                 R"toml([[gate]]
 id = "none"
 kind = "constant"
 quantity = "gauge.near.failure"
@@ -629,13 +590,8 @@ std::vector<reports::Run> made_runs() {
   for (const char* method : {"fem", "mpm-musl"}) {
     for (const char* variant : {"", "weak"}) {
       const bool fem = std::string(method) == "fem";
-      reports::Run run;
-      run.method = method;
-      run.cells = 40;
-      run.courant_asked = 0.3;
-      run.particles = fem ? "" : "0.25 0.75";
+      reports::Run run = made_run(method, 40, 0.3);
       run.parameters = variant;
-      run.status = "completed";
       run.steps = 100;
       for (const double from_face : {4e-3, 6e-3}) {
         const std::string id = from_face < 5e-3 ? "near" : "far";
@@ -659,8 +615,6 @@ const reports::Figure::Series& series(const reports::Figure::Panel& panel, const
   return *found;
 }
 
-bool mentions(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
 /// Whether the page says that a run is.
 bool missing(const reports::Page::Row& row) {
   return std::count(row.values.begin(), row.values.end(), "did not complete") == 1;
@@ -669,7 +623,7 @@ bool missing(const reports::Page::Row& row) {
 /// What a row holds under a head that has `part` in it.
 std::string under(const reports::Page::Section& section, std::size_t row, const std::string& part) {
   for (std::size_t k = 0; k < section.columns.size(); ++k)
-    if (mentions(section.columns[k], part)) return section.rows.at(row).values.at(k);
+    if (holds(section.columns[k], part)) return section.rows.at(row).values.at(k);
   return "no such column";
 }
 
@@ -681,8 +635,8 @@ BOOST_AUTO_TEST_CASE(a_figure_of_gauges_has_a_panel_for_each_of_them) {
   BOOST_TEST(figure.id == "fig16");
   BOOST_TEST(figure.title == "Fig. 16. A struck plate");
   BOOST_REQUIRE_EQUAL(figure.panels.size(), 2u);
-  BOOST_TEST(mentions(figure.panels[0].label, "4 mm from the impact face"));
-  BOOST_TEST(mentions(figure.panels[1].label, "6 mm from the impact face"));
+  BOOST_TEST(holds(figure.panels[0].label, "4 mm from the impact face"));
+  BOOST_TEST(holds(figure.panels[1].label, "6 mm from the impact face"));
   BOOST_TEST((figure.x_min == 0 && figure.x_max == 10));
   BOOST_TEST((figure.y_min < 0 && figure.y_max > 1.2));
   for (std::size_t p = 0; p < 2; ++p) {
@@ -725,7 +679,7 @@ BOOST_AUTO_TEST_CASE(a_figure_of_gauges_has_a_panel_for_each_of_them) {
   for (const auto& note : figure.notes) notes += note + '\n';
   for (const char* part : {"σ_x = ½ρc_L v = 1.000 GPa", "16 mm at 200 m/s", "d = d0,", "d0 = 8 m²/s", "f_max = 0.5",
                            "threshold 0.5 GPa", "no artificial viscosity", "Courant number 0.3", "40 cells of 1 mm"})
-    BOOST_TEST(mentions(notes, part), part << " in\n" << notes);
+    BOOST_TEST(holds(notes, part), part << " in\n" << notes);
 }
 
 BOOST_AUTO_TEST_CASE(a_figure_of_gauges_shows_what_is_asked_for) {
@@ -733,9 +687,9 @@ BOOST_AUTO_TEST_CASE(a_figure_of_gauges_shows_what_is_asked_for) {
   const auto figure = gauge_figure(c, c.figures.at(1), made_runs());
   BOOST_REQUIRE_EQUAL(figure.panels.size(), 2u);  // of one gauge and two variants
   for (const auto& panel : figure.panels) {
-    BOOST_TEST(mentions(panel.label, "6 mm"));
-    BOOST_TEST(mentions(panel.label, "FEM overshoot 10.0 %, 10–90 % in 50 ns"), panel.label);
-    BOOST_TEST(mentions(panel.label, "MPM overshoot 20.0 %"), panel.label);
+    BOOST_TEST(holds(panel.label, "6 mm"));
+    BOOST_TEST(holds(panel.label, "FEM overshoot 10.0 %, 10–90 % in 50 ns"), panel.label);
+    BOOST_TEST(holds(panel.label, "MPM overshoot 20.0 %"), panel.label);
     BOOST_REQUIRE_EQUAL(panel.series.size(), 3u);
     BOOST_TEST((panel.series[0].label == "elastic, exact" && panel.series[1].label == "FEM"));
     BOOST_TEST(panel.series[2].label == "MPM, MUSL");
@@ -764,7 +718,7 @@ BOOST_AUTO_TEST_CASE(a_label_does_not_take_what_is_no_number_for_nothing) {
   auto runs = made_runs();
   for (auto& run : runs) run.measures["gauge.far.overshoot"] = nan_value;
   for (const auto& panel : gauge_figure(c, c.figures.at(1), runs).panels)
-    BOOST_TEST(!mentions(panel.label, "overshoot 0.0 %"), panel.label);
+    BOOST_TEST(!holds(panel.label, "overshoot 0.0 %"), panel.label);
 }
 
 BOOST_AUTO_TEST_CASE(a_figure_says_what_is_missing_and_draws_no_line_backwards) {
@@ -773,7 +727,7 @@ BOOST_AUTO_TEST_CASE(a_figure_says_what_is_missing_and_draws_no_line_backwards) 
   std::erase_if(runs, [](const auto& run) { return run.method == "mpm-musl"; });
   const auto figure = gauge_figure(c, c.figures.at(0), runs);
   BOOST_TEST(figure.panels.at(0).series.size() == 4u);
-  BOOST_TEST(mentions(figure.notes.back(), "mpm-musl is missing"), figure.notes.back());
+  BOOST_TEST(holds(figure.notes.back(), "mpm-musl is missing"), figure.notes.back());
   // A run that ends before the front has come to the gauge.
   c.times = {0.5e-6};
   const auto early = gauge_figure(c, c.figures.at(0), runs);
@@ -803,9 +757,9 @@ BOOST_AUTO_TEST_CASE(the_page_shows_every_variant_of_its_sections) {
   const auto &converted = page.sections[3], &impact = page.sections[4];
   BOOST_TEST((converted.heading == "Converted" && converted.text.at(0) == "How much."));
   BOOST_REQUIRE_EQUAL(converted.rows.size(), 4u);
-  BOOST_TEST((mentions(converted.rows[0].name, "FEM") && mentions(converted.rows[1].name, "MPM, MUSL")));
+  BOOST_TEST((holds(converted.rows[0].name, "FEM") && holds(converted.rows[1].name, "MPM, MUSL")));
   BOOST_TEST((converted.rows[0].reference && !converted.rows[2].reference));
-  BOOST_TEST((mentions(converted.rows[2].name, "half of it is converted") && mentions(converted.rows[2].name, "FEM")));
+  BOOST_TEST((holds(converted.rows[2].name, "half of it is converted") && holds(converted.rows[2].name, "FEM")));
   for (const auto& row : converted.rows) BOOST_TEST(row.values.size() == converted.columns.size());
   const auto value = [&](std::size_t row, const std::string& head) { return under(converted, row, head); };
   BOOST_TEST(value(0, "failure at 4 mm [µs]") == "2.5");
@@ -817,12 +771,12 @@ BOOST_AUTO_TEST_CASE(the_page_shows_every_variant_of_its_sections) {
   // Not run: said, not left out.
   BOOST_REQUIRE_EQUAL(impact.rows.size(), 2u);
   for (const auto& row : impact.rows) {
-    BOOST_TEST(mentions(row.name, "below the threshold"), row.name);
+    BOOST_TEST(holds(row.name, "below the threshold"), row.name);
     BOOST_TEST(missing(row));
     BOOST_TEST(row.values.front() == "–");
   }
   for (const auto& row : converted.rows) BOOST_TEST(!missing(row));
-  BOOST_TEST(reports::page_html(page).find("half of it is converted") != std::string::npos);
+  BOOST_TEST(holds(reports::page_html(page), "half of it is converted"));
   // A run that blew up did not complete either.
   reports::Case broken;
   broken.runs = made_runs();

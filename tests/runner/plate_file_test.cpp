@@ -13,24 +13,20 @@
 #include "runner/input/constants.hpp"
 #include "runner/input/leaf.hpp"
 #include "runner/input/plate_build.hpp"
+#include "tests/broken_text.hpp"
+#include "tests/case_text.hpp"
+#include "tests/messages.hpp"
+#include "tests/text.hpp"
 
 using namespace diptych;
 using namespace diptych::runner;
+using namespace diptych::tests;
 namespace tt = boost::test_tools;
 
 namespace {
 
 /// Damage and diffusion: every table, and every key of those that may stand together.
-const std::string whole = R"toml(schema = 1
-id = "plate"
-title = "t"
-claim = "cross-code"
-why = "w"
-units = "SI"
-[plate]
-width = 1.0
-height = 1.5
-cell_aspect = 1.25
+const std::string whole = head("plate", "cross-code") + plate("1.0", "1.5") + R"toml(cell_aspect = 1.25
 [material]
 model = "tensile-damage"
 E = 50e9
@@ -65,12 +61,8 @@ clip_strain = false
 scheme = "rkl2"
 reading = "radial"
 drift = 0.1
-[supports]
-left = "roller"
-right = "free"
-bottom = "driven"
-top = "platen"
-velocity = ["0", "-0.1*t"]
+)toml" + supports("roller", "free", "driven", "platen") +
+                          R"toml(velocity = ["0", "-0.1*t"]
 [[load]]
 at = "top"
 history = "ramp"
@@ -193,74 +185,25 @@ parameters = { P = 7e8 }
 )toml";
 
 /// An elastic plate with a mode of its own.
-const std::string elastic_mode = R"toml(schema = 1
-id = "mode"
-title = "t"
-claim = "code-verification"
-why = "w"
-units = "SI"
-[plate]
-width = 2.0
-height = 2.0
-[material]
-model = "elastic"
-E = 1e4
-nu = 0.25
-rho = 4
-plane = "stress"
-[supports]
-left = "free"
-right = "free"
-bottom = "free"
-top = "free"
-[model]
+const std::string elastic_mode =
+    head("mode", "code-verification") + plate("2.0", "2.0") + elastic("1e4", "0.25", "4", "stress") +
+    supports("free", "free", "free", "free") + R"toml([model]
 features = ["elastic"]
 [exact]
 solution = "lame-mode"
 mode = 2
 amplitude = -1e-3
 start = "moving"
-[axes]
-method = ["fem", "mpm-usf", "mpm-usl", "mpm-musl"]
-cells = [8, 16, 32, 64]
-courant = [0.5]
-[sample]
+)toml" +
+    axes({"fem", "mpm-usf", "mpm-usl", "mpm-musl"}, "8, 16, 32, 64", "0.5") + R"toml([sample]
 times = { unit = "s", at = [0.01] }
-[[gate]]
-id = "constant"
-kind = "constant"
-quantity = "displacement.L2"
-predict = "mode"
-ratio = [0.98, 1.02]
-reason = "r"
-[[gate]]
-id = "order"
-kind = "order"
-quantity = "stress.L1"
-expect = 1
-band = [0.9, 1.1]
-levels_min = 3
-reason = "r"
-[[gate]]
-id = "limit"
-kind = "limit"
-quantity = "critical_courant"
-predict = "stability-limit"
-ratio = [0.99, 1.01]
-reason = "r"
-)toml";
+)toml" +
+    gate("constant", "constant", "displacement.L2", "predict = \"mode\"\nratio = [0.98, 1.02]\n") +
+    gate("order", "order", "stress.L1", "expect = 1\nband = [0.9, 1.1]\nlevels_min = 3\n") +
+    gate("limit", "limit", "critical_courant", "predict = \"stability-limit\"\nratio = [0.99, 1.01]\n");
 
 /// Diffusion without a material.
-const std::string pure = R"toml(schema = 1
-id = "diffusion"
-title = "t"
-claim = "code-verification"
-why = "w"
-units = "SI"
-[plate]
-width = 2.0
-height = 1.0
-[diffusion]
+const std::string pure = head("diffusion", "code-verification") + plate("2.0", "1.0") + R"toml([diffusion]
 diffusivity = "d*(1 + x*y)"
 rate = "x*y*t"
 corner_rate = -0.5
@@ -279,37 +222,15 @@ set = { "diffusion.scheme" = "backward-euler" }
 [exact]
 solution = "corner-source"
 core = 0.1
-[axes]
-method = ["diffusion"]
-cells = [10]
-courant = [0.25, 0.5, 1, 2]
-[sample]
+)toml" + axes({"diffusion"}, "10", "0.25, 0.5, 1, 2") +
+                         R"toml([sample]
 times = { unit = "s", at = [0.01] }
 probes = [{ id = "p", reads = "concentration", at = [1, 1] }, { id = "t", reads = "total" }]
-[[gate]]
-id = "order"
-kind = "order"
-quantity = "concentration.L2"
-over = "courant"
-expect = 2.0
-band = [1.9, 2.1]
-reason = "r"
-[[gate]]
-id = "balance"
-kind = "invariant"
-quantity = "concentration.balance"
-max = 1e-12
-reason = "r"
-)toml";
+)toml" + gate("order", "order", "concentration.L2", "over = \"courant\"\nexpect = 2.0\nband = [1.9, 2.1]\n") +
+                         gate("balance", "invariant", "concentration.balance", "max = 1e-12\n");
 
 /// A failure wave behind the shock of a flyer.
-const std::string struck = R"toml(schema = 1
-id = "struck"
-title = "t"
-claim = "cross-code"
-why = "w"
-units = "SI"
-[plate]
+const std::string struck = head("struck", "cross-code") + R"toml([plate]
 width = 42e-3
 rows = 2
 [material]
@@ -337,65 +258,24 @@ c2 = 0.3
 bulk = 0.5
 length = 2
 acts = "always"
-[supports]
-left = "free"
-right = "free"
-bottom = "roller"
-top = "roller"
-[model]
+)toml" + guided() + R"toml([model]
 features = ["viscosity", "diffusion", "failure-wave", "impact"]
-[axes]
-method = ["fem", "mpm-musl"]
-cells = [7, 14, 28, 42]
-courant = [0.3]
-[sample]
+)toml" + axes({"fem", "mpm-musl"}, "7, 14, 28, 42", "0.3") +
+                           R"toml([sample]
 times = { unit = "s", at = [1e-6] }
 probes = [{ id = "total", reads = "total" }, { id = "c", reads = "concentration", at = [20e-3, 0] }]
 gauges = [
   { id = "near", from_face = 4.5e-3 },
   { id = "far", from_face = 6.5e-3 },
 ]
-[[gate]]
-id = "settles"
-kind = "settling"
-quantity = "gauge.near.yy"
-max = 0.9
-reason = "r"
-[[gate]]
-id = "front"
-kind = "constant"
-quantity = "gauge.near.failure"
-predict = "diffusion-front"
-ratio = [0.5, 2]
-reason = "r"
-[[gate]]
-id = "speed"
-kind = "exact"
-quantity = "failure.speed"
-expect = 1500
-max = 700
-reason = "r"
-[[gate]]
-id = "late"
-kind = "exact"
-quantity = "gauge.far.longitudinal"
-expect = 1
-max = 0.01
-reason = "r"
-[[gate]]
-id = "ahead"
-kind = "invariant"
-quantity = "dilatancy.ahead"
-max = 0
-reason = "r"
-[[gate]]
-id = "agree"
-kind = "agreement"
-quantity = "gauge.far.dilatancy"
-max = 1
-judged = [42]
-reason = "r"
-[[figure]]
+)toml" + gate("settles", "settling", "gauge.near.yy", "max = 0.9\n") +
+                           gate("front", "constant", "gauge.near.failure",
+                                "predict = \"diffusion-front\"\nratio = [0.5, 2]\n") +
+                           gate("speed", "exact", "failure.speed", "expect = 1500\nmax = 700\n") +
+                           gate("late", "exact", "gauge.far.longitudinal", "expect = 1\nmax = 0.01\n") +
+                           gate("ahead", "invariant", "dilatancy.ahead", "max = 0\n") +
+                           gate("agree", "agreement", "gauge.far.dilatancy", "max = 1\njudged = [42]\n") +
+                           R"toml([[figure]]
 id = "fig16"
 kind = "gauges"
 cells = 42
@@ -415,81 +295,23 @@ sections = [{ heading = "h", says = "s", variants = [""] }]
 )toml";
 
 /// The same without what fails: the exact solution is known.
-const std::string shocked = R"toml(schema = 1
-id = "shocked"
-title = "t"
-claim = "code-verification"
-why = "w"
-units = "SI"
-[plate]
-width = 42e-3
-rows = 1
-[material]
-model = "elastic"
-E = 72.8e9
-nu = 0.222
-rho = 2563
-plane = "strain"
-[flyer]
+const std::string shocked = head("shocked", "code-verification") + strip("42e-3") + glass() + R"toml([flyer]
 thickness = 18e-3
 velocity = 684.0
-[supports]
-left = "free"
-right = "free"
-bottom = "roller"
-top = "roller"
-[model]
+)toml" + guided() + R"toml([model]
 features = ["elastic", "impact"]
 [exact]
 solution = "plate-impact"
-[axes]
-method = ["fem", "mpm-musl"]
-cells = [7, 14, 28, 42]
-courant = [0.3]
-[sample]
+)toml" + axes({"fem", "mpm-musl"}, "7, 14, 28, 42", "0.3") +
+                            R"toml([sample]
 times = { unit = "s", at = [1e-6] }
 gauges = [{ id = "near", from_face = 4.5e-3 }]
-[[gate]]
-id = "lattice"
-kind = "invariant"
-quantity = "gauge.near.prediction"
-max = 1e-9
-reason = "r"
-[[gate]]
-id = "plateau"
-kind = "constant"
-quantity = "gauge.near.plateau"
-predict = "impact-lattice"
-ratio = [0.999, 1.001]
-reason = "r"
-)toml";
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  BOOST_REQUIRE_MESSAGE(at != std::string::npos, "the test speaks of '" + from + "', which the case lacks");
-  return text.replace(at, from.size(), to);
-}
+)toml" + gate("lattice", "invariant", "gauge.near.prediction", "max = 1e-9\n") +
+                            gate("plateau", "constant", "gauge.near.plateau",
+                                 "predict = \"impact-lattice\"\nratio = [0.999, 1.001]\n");
 
 std::string message(const std::string& text) {
-  try {
-    parse_case(text, "plate.toml");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
-
-std::vector<std::string> lines(const std::string& text) {
-  std::vector<std::string> all;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) all.push_back(line);
-  return all;
-}
-
-std::size_t line_of(const std::string& text, const std::string& part) {
-  const std::size_t at = text.find(part);
-  BOOST_REQUIRE_MESSAGE(at != std::string::npos, "no line holds '" + part + "'");
-  return 1 + static_cast<std::size_t>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+  return message_of<InputError>([&] { parse_case(text, "plate.toml"); });
 }
 
 /// The same without a variant and without what speaks of one: for mistakes that would be found in the variant too.
@@ -516,9 +338,8 @@ void expect_at(const std::string& text, const std::string& at, const std::vector
   const std::string all = message(text), place = "plate.toml:" + std::to_string(line_of(text, at)) + ':';
   BOOST_TEST(lines(all).size() == 1u, "wanted one line about '" << at << "', have\n" << all);
   BOOST_TEST(all.rfind(place, 0) == 0, "wanted " << place << ", have\n" << all);
-  for (const std::string& part : parts)
-    BOOST_TEST(all.find(part) != std::string::npos, "wanted '" << part << "' in\n" << all);
-  BOOST_TEST(all.find("allowed") != std::string::npos, "nothing is said of what is allowed:\n" << all);
+  for (const std::string& part : parts) BOOST_TEST(holds(all, part), "wanted '" << part << "' in\n" << all);
+  BOOST_TEST(holds(all, "allowed"), "nothing is said of what is allowed:\n" << all);
 }
 
 /// `from` becomes `to`, which is the mistake.
@@ -532,9 +353,7 @@ void says(const std::string& text, const std::string& at, const std::vector<std:
   const std::string all = message(text), place = "plate.toml:" + std::to_string(line_of(text, at)) + ':';
   bool found = false;
   for (const std::string& line : lines(all)) {
-    bool here = line.rfind(place, 0) == 0;
-    for (const std::string& part : parts) here = here && line.find(part) != std::string::npos;
-    found = found || here;
+    found = found || (line.starts_with(place) && holds_all(line, parts));
   }
   BOOST_TEST(found, "wanted at " << place << " '" << parts.front() << "' and so on, have\n" << all);
 }
@@ -548,17 +367,6 @@ Case good(const std::string& text, const std::string& from, const std::string& t
   const std::string changed = replaced(text, from, to);
   BOOST_REQUIRE_EQUAL(message(changed), "");
   return parse_case(changed, "plate.toml");
-}
-
-/// Without the lines that hold one of `parts`.
-std::string without(const std::string& text, const std::vector<std::string>& parts) {
-  std::string out;
-  for (const std::string& line : lines(text)) {
-    bool kept = true;
-    for (const std::string& part : parts) kept = kept && line.find(part) == std::string::npos;
-    if (kept) out += line + '\n';
-  }
-  return out;
 }
 
 }  // namespace
@@ -845,9 +653,9 @@ BOOST_AUTO_TEST_CASE(sides_have_names) {
   const std::string text = replaced(elastic_mode, "bottom = \"free\"", "botom = \"free\"");
   const std::string said = message(text);
   BOOST_TEST(lines(said).size() == 2u, said);  // one side is missing, the other unknown
-  BOOST_TEST(said.find("supports.bottom: missing") != std::string::npos, said);
-  BOOST_TEST(said.find("supports.botom: found an unknown key (= \"free\")") != std::string::npos, said);
-  BOOST_TEST(said.find("did you mean \"bottom\"?") != std::string::npos, said);
+  BOOST_TEST(holds(said, "supports.bottom: missing"), said);
+  BOOST_TEST(holds(said, "supports.botom: found an unknown key (= \"free\")"), said);
+  BOOST_TEST(holds(said, "did you mean \"bottom\"?"), said);
   wrong(elastic_mode, "top = \"free\"", "top = \"fixd\"", {"supports.top", "found \"fixd\"", "\"fixed\"?"});
   wrong(alone(), "at = \"top\"", "at = \"topp\"",
         {"load 1: at", "\"left\", \"right\", \"bottom\", \"top\"", "\"top\"?"});
@@ -1020,7 +828,7 @@ BOOST_AUTO_TEST_CASE(probes_read_what_the_plate_has) {
   const auto probe = [](const std::string& text, const std::string& keys, const std::vector<std::string>& parts) {
     const std::string list = "probes = [\n";
     std::string with = text;
-    if (text.find(list) == std::string::npos)
+    if (!holds(text, list))
       with = replaced(text, "at = [0.01] }\n", "at = [0.01] }\nprobes = [\n{ id = \"new\", " + keys + " },\n]\n");
     else
       with = replaced(text, list, list + "{ id = \"new\", " + keys + " },\n");
@@ -1282,7 +1090,6 @@ BOOST_AUTO_TEST_CASE(an_order_over_the_time_step_needs_time_steps) {
 
 BOOST_AUTO_TEST_CASE(broken_files_never_crash) {
   std::mt19937 random(20020917);
-  const auto pick = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
   const std::vector<std::string> scraps{"0",  "-1",   "nan", "1e400", "\"\"",    "[]",   "{}",  "[[]]",
                                         "[[", "]]",   "\n",  "=",     "\"",      ".",    "inf", "true",
                                         "# ", "\xc3", ",",   "{",     "\"x*t\"", "9e18", "[{}]"};
@@ -1291,28 +1098,7 @@ BOOST_AUTO_TEST_CASE(broken_files_never_crash) {
     if (!said.empty() && said.rfind("plate.toml:", 0) != 0) BOOST_ERROR("without its place: " + said);
   };
   for (const std::string& base : {whole, elastic_mode, pure, struck, shocked}) {
-    for (std::size_t size = 0; size < base.size(); size += 29) survives(base.substr(0, size));
-    const auto all = lines(base);
-    for (std::size_t skipped = 0; skipped < all.size(); ++skipped) {  // each line gone, each line twice
-      std::string less, more;
-      for (std::size_t i = 0; i < all.size(); ++i) {
-        if (i != skipped) less += all[i] + "\n";
-        more += all[i] + "\n" + (i == skipped ? all[i] + "\n" : "");
-      }
-      survives(less);
-      survives(more);
-    }
-    for (const std::string& line : all) {  // each value replaced by each scrap
-      const std::size_t equals = line.find("= ");
-      if (equals == std::string::npos) continue;
-      for (const std::string& scrap : scraps) survives(replaced(base, line, line.substr(0, equals + 2) + scrap));
-    }
-    for (int i = 0; i < 200; ++i) {
-      std::string text = base;
-      for (std::size_t n = 1 + pick(3); n > 0; --n)
-        text.replace(pick(text.size()), pick(4), scraps[pick(scraps.size())]);
-      survives(text);
-    }
+    read_broken(base, scraps, 29, 200, random, survives);
   }
 }
 
@@ -1329,9 +1115,8 @@ void added(const std::string& text, const std::string& place, const std::string&
   const std::string at = "plate.toml:" + std::to_string(line_of(marked, '#' + line)) + ':';
   BOOST_TEST(lines(all).size() == 1u, "wanted one line about '" << line << "', have\n" << all);
   BOOST_TEST(all.rfind(at, 0) == 0, "wanted " << at << ", have\n" << all);
-  for (const std::string& part : parts)
-    BOOST_TEST(all.find(part) != std::string::npos, "wanted '" << part << "' in\n" << all);
-  BOOST_TEST(all.find("allowed") != std::string::npos, "nothing is said of what is allowed:\n" << all);
+  for (const std::string& part : parts) BOOST_TEST(holds(all, part), "wanted '" << part << "' in\n" << all);
+  BOOST_TEST(holds(all, "allowed"), "nothing is said of what is allowed:\n" << all);
 }
 
 }  // namespace
@@ -1684,7 +1469,7 @@ BOOST_AUTO_TEST_CASE(variants_of_struck_plates_are_checked) {
   BOOST_TEST(!parse_case(other("without = [\"viscosity\"]"), "t").variants.at(0).plate.viscosity);
   const auto told = [&](const std::string& change, const std::string& part) {
     const std::string all = message(other(change));
-    BOOST_TEST(all.find(part) != std::string::npos, "wanted '" << part << "' for " << change << ", have\n" << all);
+    BOOST_TEST(holds(all, part), "wanted '" << part << "' for " << change << ", have\n" << all);
   };
   told("set = { \"material.f_max\" = 2 }", "variant \"v\": material.f_max");
   told("set = { \"flyer.thickness\" = 15e-3 }", "a column of nodes");
