@@ -87,8 +87,7 @@ void measure_failure(const Case& c, reports::Run& run) {
 }
 
 /// V_d in front of the shock and of the nodes that the cells at its foot touch.
-void measure_ahead(const Case& c, const Leaf& leaf, const PlateRecord& record, reports::Run& run) {
-  const diffusion::Grid grid = grid_of(*c.plate, leaf.cells);
+void measure_ahead(const Case& c, const diffusion::Grid& grid, const PlateRecord& record, reports::Run& run) {
   const double face = c.plate->flyer->thickness, speed = elastic_of(*c.plate).pressure_wave_speed();
   double ahead = 0, largest = 0;
   for (const PlateSnapshot& s : record.snapshots) {
@@ -153,12 +152,13 @@ ImpactTheory impact_theory(const PlateSpec& plate, double from_face) {
   return theory;
 }
 
-void measure_gauges(const Case& c, const Leaf& leaf, const PlateRecord& record, double time_step, reports::Run& run) {
+void measure_gauges(const Case& c, const Leaf& leaf, const diffusion::Grid& grid, const PlateRecord& record,
+                    double time_step, reports::Run& run) {
   const PlateSpec& plate = *c.plate;
   if (!plate.flyer) return;
   if (plate.flyer->gap > 0 && panel(leaf.method).grid_contact)
     run.measures["impact.left-over"] = record.left_over / run.cell_size;
-  if (plate.spread) measure_ahead(c, leaf, record, run);
+  if (plate.spread) measure_ahead(c, grid, record, run);
   using Support = Edge::Support;
   const std::array strip{Support::free, Support::free, Support::roller, Support::roller};
   const bool by_waves = std::holds_alternative<material::PlaneElastic>(*plate.material) && !plate.compression &&

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "hinge/diffusion/concentration.hpp"
 #include "hinge/scene/plate.hpp"
 #include "reports/results.hpp"
 #include "runner/compare/uncertainty.hpp"
@@ -42,6 +43,7 @@ ImpactTheory impact_theory(const PlateSpec&, double from_face);
 /// "failure.speed" [m/s] between them, "failure.delay" [s]: when a front of that speed has left the face, and
 /// "failure.slowing": the ratio of their failures. "dilatancy.ahead": largest V_d at sample times in front of the
 /// elastic front and three nodes, over the largest; "impact.left-over": see PlateRecord, in cells.
-void measure_gauges(const Case&, const Leaf&, const PlateRecord&, double time_step, reports::Run&);
+void measure_gauges(const Case&, const Leaf&, const diffusion::Grid&, const PlateRecord&, double time_step,
+                    reports::Run&);
 
 }  // namespace diptych::runner

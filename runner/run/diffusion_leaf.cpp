@@ -33,7 +33,7 @@ reports::Sample DiffusionLeaf::sample(const PlateSnapshot& own, const PlateSnaps
 }
 
 void DiffusionLeaf::measure(const PlateRecord& record, const Stepping&, reports::Run& run) const {
-  measure_plane_record(c, leaf, record, run);
+  measure_plane_record(c, mesh, record, run);
 }
 
 double DiffusionLeaf::differing(const PlateRecord& a, const PlateRecord& b, const PowersOfTwo& by, bool mirror) const {

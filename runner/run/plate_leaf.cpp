@@ -66,8 +66,8 @@ reports::Sample PlateLeaf::sample(const PlateSnapshot& own, const PlateSnapshot&
 }
 
 void PlateLeaf::measure(const PlateRecord& record, const Stepping& stepping, reports::Run& run) const {
-  measure_plane_record(c, leaf, record, run);
-  measure_gauges(c, leaf, record, stepping.time_step, run);
+  measure_plane_record(c, mesh.grid, record, run);
+  measure_gauges(c, leaf, mesh.grid, record, stepping.time_step, run);
   measure_against_forward_euler(record, stepping, run);
 }
 
@@ -172,15 +172,15 @@ reports::Sample measure_plane_sample(const Case& c, const Leaf& leaf, const diff
   compare(PlaneQuantity::displacement, "displacement", own.displacement);
   if (!own.concentration.empty())
     compare(PlaneQuantity::concentration, "concentration", nodes_as_points(grid, own.concentration, own.time));
-  if (!at.crack_density.empty()) sample.plate = damage_fields(c, leaf, at);
+  if (!at.crack_density.empty()) sample.plate = damage_fields(c, grid, at);
   for (const PlateProbe& probe : c.plate_probes)
-    sample.probes.push_back(read_plate_probe(c, leaf, probe, at, sample.plate, run.platen));
-  if (keep_fields) sample.files = vtu_fields(c, leaf, at);
+    sample.probes.push_back(read_plate_probe(c, grid, probe, at, sample.plate, run.platen));
+  if (keep_fields) sample.files = vtu_fields(grid, panel(leaf.method).elements, at);
   return sample;
 }
 
-void measure_plane_record(const Case& c, const Leaf& leaf, const PlateRecord& record, reports::Run& run) {
-  measure_fields(c, leaf, record, run);
+void measure_plane_record(const Case& c, const diffusion::Grid& grid, const PlateRecord& record, reports::Run& run) {
+  measure_fields(c, grid, record, run);
   if (record.diffusion_updates > 0)
     run.measures["diffusion.updates"] =
         static_cast<double>(record.diffusion_updates) / static_cast<double>(record.steps);

@@ -42,6 +42,6 @@ reports::Sample measure_plane_sample(const Case&, const Leaf&, const diffusion::
                                      const PlateSnapshot& at, double asked, bool keep_fields,
                                      const analytic::PlaneSolution*, const reports::Run&);
 /// What is measured on a plate's whole record, with mechanics or without.
-void measure_plane_record(const Case&, const Leaf&, const PlateRecord&, reports::Run&);
+void measure_plane_record(const Case&, const diffusion::Grid&, const PlateRecord&, reports::Run&);
 
 }  // namespace diptych::runner

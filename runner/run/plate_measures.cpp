@@ -128,8 +128,7 @@ PointField nodes_as_points(const diffusion::Grid& grid, const std::vector<double
   return field;
 }
 
-reports::PlateFields damage_fields(const Case& c, const Leaf& leaf, const PlateSnapshot& snapshot) {
-  const diffusion::Grid grid = grid_of(*c.plate, leaf.cells);
+reports::PlateFields damage_fields(const Case& c, const diffusion::Grid& grid, const PlateSnapshot& snapshot) {
   const diffusion::Evolution& evolution = *c.plate->evolution;
   reports::PlateFields fields{grid.nx, grid.ny, c.plate->width, c.plate->height, {}, {}};
   fields.crack_density = evolution.diffusion ? snapshot.concentration : cells_to_nodes(grid, snapshot.crack_density);
@@ -140,7 +139,7 @@ reports::PlateFields damage_fields(const Case& c, const Leaf& leaf, const PlateS
   return fields;
 }
 
-reports::ProbeValue read_plate_probe(const Case& c, const Leaf& leaf, const PlateProbe& probe,
+reports::ProbeValue read_plate_probe(const Case& c, const diffusion::Grid& grid, const PlateProbe& probe,
                                      const PlateSnapshot& snapshot, const std::optional<reports::PlateFields>& damage,
                                      const reports::Curve& platen) {
   reports::ProbeValue value{probe.id, std::nan(""), {}};
@@ -149,7 +148,6 @@ reports::ProbeValue read_plate_probe(const Case& c, const Leaf& leaf, const Plat
     return value;
   }
   if (probe.reads == "total" || probe.reads == "concentration") {
-    const diffusion::Grid grid = grid_of(*c.plate, leaf.cells);
     const PointField nodes = nodes_as_points(grid, snapshot.concentration, snapshot.time);
     if (snapshot.concentration.empty()) return value;
     if (probe.reads == "total") {
@@ -182,8 +180,7 @@ reports::ProbeValue read_plate_probe(const Case& c, const Leaf& leaf, const Plat
   return value;
 }
 
-std::vector<reports::VtuPiece> vtu_fields(const Case& c, const Leaf& leaf, const PlateSnapshot& snapshot) {
-  const diffusion::Grid grid = grid_of(*c.plate, leaf.cells);
+std::vector<reports::VtuPiece> vtu_fields(const diffusion::Grid& grid, bool elements, const PlateSnapshot& snapshot) {
   std::vector<reports::VtuPiece> pieces;
   const auto node = [&](int i, int j) {
     return static_cast<std::size_t>(j) * static_cast<std::size_t>(grid.nx + 1) + static_cast<std::size_t>(i);
@@ -194,7 +191,6 @@ std::vector<reports::VtuPiece> vtu_fields(const Case& c, const Leaf& leaf, const
   if (!snapshot.displacement.x.empty()) {
     const auto& stress = snapshot.stress.component;
     reports::VtuPiece piece;
-    const bool elements = panel(leaf.method).elements;
     piece.name = elements ? "mesh" : "particles";
     piece.mesh.x = snapshot.displacement.x;
     piece.mesh.y = snapshot.displacement.y;
@@ -237,7 +233,7 @@ std::vector<reports::VtuPiece> vtu_fields(const Case& c, const Leaf& leaf, const
   return pieces;
 }
 
-void measure_fields(const Case& c, const Leaf& leaf, const PlateRecord& record, reports::Run& run) {
+void measure_fields(const Case& c, const diffusion::Grid& grid, const PlateRecord& record, reports::Run& run) {
   double largest = 0;
   const auto look = [&](const std::vector<double>& values) {
     for (const double value : values) {
@@ -262,7 +258,6 @@ void measure_fields(const Case& c, const Leaf& leaf, const PlateRecord& record, 
   const double area = c.plate->width * c.plate->height;
   if (weight > 0) run.measures["area.error"] = weight / area - 1;
   if (record.snapshots.empty() || record.snapshots.back().concentration.empty()) return;
-  const diffusion::Grid grid = grid_of(*c.plate, leaf.cells);
   double total = 0;
   const auto& values = record.snapshots.back().concentration;
   for (std::size_t k = 0; k < values.size(); ++k) total += values[k] * node_area(grid, k);

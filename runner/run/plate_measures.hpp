@@ -23,15 +23,16 @@ Norms plane_error(const PointField&, const analytic::PlaneSolution&, analytic::P
 
 PointField nodes_as_points(const diffusion::Grid&, const std::vector<double>& values, double time);
 
-reports::PlateFields damage_fields(const Case&, const Leaf&, const PlateSnapshot&);
-reports::ProbeValue read_plate_probe(const Case&, const Leaf&, const PlateProbe&, const PlateSnapshot&,
+reports::PlateFields damage_fields(const Case&, const diffusion::Grid&, const PlateSnapshot&);
+reports::ProbeValue read_plate_probe(const Case&, const diffusion::Grid&, const PlateProbe&, const PlateSnapshot&,
                                      const std::optional<reports::PlateFields>&, const reports::Curve& platen);
-std::vector<reports::VtuPiece> vtu_fields(const Case&, const Leaf&, const PlateSnapshot&);
+/// elements: the points are those of triangles, four a cell; else particles.
+std::vector<reports::VtuPiece> vtu_fields(const diffusion::Grid&, bool elements, const PlateSnapshot&);
 
 /// "numbers.largest": the largest magnitude of all sampled numbers. "area.error": what the points stand for less the
 /// plate's area, as a part of it. "concentration.balance": ∫C dA at the end less what the source has given, of the
 /// latter. "concentration.least": the least value of C met at sample times, of the largest.
-void measure_fields(const Case&, const Leaf&, const PlateRecord&, reports::Run&);
+void measure_fields(const Case&, const diffusion::Grid&, const PlateRecord&, reports::Run&);
 
 /// All lengths, moduli, densities and stresses of an elastic plate multiplied.
 Plate scaled(const Plate&, const PowersOfTwo&);

@@ -187,7 +187,7 @@ reports::Run measured(const Case& c, const PlateRecord& record, const std::strin
   leaf.cells = 40;
   leaf.courant = 0.3;
   if (method != "fem") leaf.particles = {0.25, 0.75};
-  measure_gauges(c, leaf, record, 7.5e-8, run);
+  measure_gauges(c, leaf, grid_of(*c.plate, leaf.cells), record, 7.5e-8, run);
   return run;
 }
 

@@ -261,7 +261,7 @@ BOOST_AUTO_TEST_CASE(nodes_stand_where_the_grid_has_them) {
 
 BOOST_AUTO_TEST_CASE(what_the_fields_of_a_run_hold_is_measured) {
   const Case c = parse_case(sheet, "t.toml");
-  const Leaf leaf{"diffusion", 4, 0.2, {}, {}, ""};  // 4 × 2 cells, 15 nodes
+  const diffusion::Grid grid = grid_of(*c.plate, 4);  // 4 × 2 cells, 15 nodes
   PlateSnapshot s;
   s.concentration.assign(15, 2);
   s.concentration[7] = -3;  // in the middle: an area of 1/16
@@ -269,14 +269,14 @@ BOOST_AUTO_TEST_CASE(what_the_fields_of_a_run_hold_is_measured) {
   record.snapshots = {s};
   record.fed = 0.5;
   reports::Run run;
-  measure_fields(c, leaf, record, run);
+  measure_fields(c, grid, record, run);
   BOOST_TEST(run.measures.at("numbers.largest") == 3);
   BOOST_TEST(run.measures.at("concentration.least") == -1);  // of the largest magnitude
   BOOST_TEST(run.measures.at("concentration.balance") == (1 - 5.0 / 16) / 0.5 - 1);
   BOOST_TEST(run.finite);
   BOOST_TEST(!run.measures.contains("area.error"));  // no points stand for an area
   record.snapshots[0].concentration[3] = nan_value;
-  measure_fields(c, leaf, record, run);
+  measure_fields(c, grid, record, run);
   BOOST_TEST(!run.finite);
   BOOST_TEST(std::isnan(run.measures.at("concentration.balance")));
 
@@ -287,7 +287,7 @@ BOOST_AUTO_TEST_CASE(what_the_fields_of_a_run_hold_is_measured) {
   record = PlateRecord{};
   record.snapshots = {solid};
   reports::Run mechanical;
-  measure_fields(c, leaf, record, mechanical);
+  measure_fields(c, grid, record, mechanical);
   BOOST_TEST(mechanical.measures.at("numbers.largest") == 9);
   BOOST_TEST(mechanical.measures.at("area.error") == -0.25);
   BOOST_TEST(!mechanical.measures.contains("concentration.balance"));
@@ -457,14 +457,14 @@ BOOST_AUTO_TEST_CASE(a_probe_at_a_place_reads_the_nearest_point) {
   s.velocity = s.displacement = s.stress;
   s.velocity.component = {{11, 12}, {13, 14}};
   s.displacement.component = {{21, 22}, {23, 24}};
-  const Leaf leaf{"fem", 4, 0.5, {}, {}, ""};
+  const diffusion::Grid grid = grid_of(*c.plate, 4);
   const auto reads = [&](const std::string& what, double x, double y) {
     PlateProbe one;
     one.id = "p";
     one.reads = what;
     one.x = x;
     one.y = y;
-    return read_plate_probe(c, leaf, one, s, {}, {}).value;
+    return read_plate_probe(c, grid, one, s, {}, {}).value;
   };
   BOOST_TEST((reads("stress-xx", 0, 0) == 1 && reads("stress-yy", 0, 0) == 3 && reads("stress-xy", 0, 0) == 5));
   BOOST_TEST((reads("stress-xx", 1, 1) == 2 && reads("stress-xy", 1, 1) == 6));
@@ -486,12 +486,12 @@ BOOST_AUTO_TEST_CASE(a_probe_of_the_concentration_reads_the_nearest_node) {
   const auto at = [&](double x, double y) {
     one.x = x;
     one.y = y;
-    return read_plate_probe(c, {"diffusion", 4, 0.2, {}, {}, ""}, one, s, {}, {}).value;
+    return read_plate_probe(c, grid_of(*c.plate, 4), one, s, {}, {}).value;
   };
   BOOST_TEST((at(0, 0) == 0 && at(1, 0) == 4 && at(0, 0.5) == 10 && at(1, 0.5) == 14));
   BOOST_TEST((at(0.37, 0.26) == 6 && at(0.38, 0.13) == 7 && at(0.38, 0.12) == 2));
   one.reads = "total";
-  BOOST_TEST(read_plate_probe(c, {"diffusion", 4, 0.2, {}, {}, ""}, one, s, {}, {}).value == 3.5);  // 7 on an area of ½
+  BOOST_TEST(read_plate_probe(c, grid_of(*c.plate, 4), one, s, {}, {}).value == 3.5);  // 7 on an area of ½
 }
 
 // At the time on its label, between two steps.
@@ -501,20 +501,20 @@ BOOST_AUTO_TEST_CASE(a_probe_of_the_platen_reads_its_history) {
   s.time = 0.25;
   PlateProbe one;
   one.reads = "platen";
-  const Leaf leaf{"fem", 4, 0.2, {}, {}, ""};
-  BOOST_TEST(read_plate_probe(c, leaf, one, s, {}, {{0.1, 0.2, 0.3}, {1, 2, 4}}).value == 3, tt::tolerance(1e-12));
-  BOOST_TEST(std::isnan(read_plate_probe(c, leaf, one, s, {}, {}).value));
+  const diffusion::Grid grid = grid_of(*c.plate, 4);
+  BOOST_TEST(read_plate_probe(c, grid, one, s, {}, {{0.1, 0.2, 0.3}, {1, 2, 4}}).value == 3, tt::tolerance(1e-12));
+  BOOST_TEST(std::isnan(read_plate_probe(c, grid, one, s, {}, {}).value));
 }
 
 BOOST_AUTO_TEST_CASE(damage_is_shown_on_the_nodes) {
   Case c = parse_case(cracking, "t.toml");
-  const Leaf leaf{"fem", 2, 0.5, {}, {}, ""};  // 2 × 3 cells
+  const diffusion::Grid grid = grid_of(*c.plate, 2);  // 2 × 3 cells
   PlateSnapshot s;
   s.concentration.assign(12, 0);
   s.concentration[0] = 20;   // eq. 27: C_d = λ2 C = 0.2
   s.concentration[1] = -5;   // an overshoot is no damage
   s.concentration[4] = 200;  // D is that of C_d = 9/16, the cap; C_d is as it is
-  const auto shown = damage_fields(c, leaf, s);
+  const auto shown = damage_fields(c, grid, s);
   BOOST_TEST((shown.nx == 2 && shown.ny == 3 && shown.width == 1 && shown.height == 1.5));
   BOOST_TEST(shown.crack_density[0] == 0.2);
   BOOST_TEST(shown.crack_density[4] == 2.0);
@@ -525,7 +525,7 @@ BOOST_AUTO_TEST_CASE(damage_is_shown_on_the_nodes) {
   // Without diffusion each node has the mean of the cells around it.
   c = with_parameters(c, {"fem", 2, 0.5, {}, {}, "local"});
   s.crack_density = {0.1, 0.2, 0.3, 0.4, 0, 0};
-  const auto local = damage_fields(c, leaf, s);
+  const auto local = damage_fields(c, grid, s);
   BOOST_TEST(local.crack_density[0] == 0.1);
   BOOST_TEST(local.crack_density[1] == 0.15, tt::tolerance(1e-15));
   BOOST_TEST(local.crack_density[3] == 0.2, tt::tolerance(1e-15));   // left, between the first rows
