@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "mpm/bars.hpp"
+#include "mpm/bar_run.hpp"
 
 namespace diptych::mpm {
 namespace {

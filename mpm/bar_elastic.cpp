@@ -1,4 +1,4 @@
-#include "mpm/bars.hpp"
+#include "mpm/bar_run.hpp"
 
 namespace diptych::mpm::bars {
 
