@@ -659,7 +659,7 @@ class Body {
   void begin_kick(const Kick& kick, Ledger& ledger) {
     // A part of PIC pulls the particles towards the grid's velocity, by the supports as well.
     const double impulse = (external_impulse_rate() + reaction_ + plate_.pic * held_ / kick.length) / std::sqrt(2);
-    // USL's loads work on the way from one of the grid's own velocities to the next: see mpm/bars.hpp.
+    // USL's loads work on the way from one of the grid's own velocities to the next: see mpm/bar_step.hpp.
     const bool own = scheme_ == Scheme::usl && kick.from > 0;
     const double before = work_rate(own ? grid_.kicked : grid_.velocity);
     ledger.before_kick(before, impulse, kick.length);
