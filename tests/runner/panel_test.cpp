@@ -6,6 +6,8 @@
 #include <set>
 
 #include "reports/figure.hpp"
+#include "reports/files.hpp"
+#include "reports/tables.hpp"
 #include "runner/draw/figure_runs.hpp"
 #include "runner/draw/figures.hpp"
 #include "runner/input/case_file.hpp"
@@ -257,6 +259,9 @@ BOOST_AUTO_TEST_CASE(a_third_panel_is_one_row) {
     BOOST_TEST(!error.predicted_l2.has_value());
     BOOST_TEST(!error.predicted_linf.has_value());
   }
+
+  BOOST_TEST(says(reports::text_table(bars), "== other, Courant number 0.5 asked =="));
+  BOOST_TEST(says(reports::results_jsonl({bars}, {}), "\"method\":\"other\""));
 
   const reports::Case plates = measured(parse_case(plate, "t.toml"));
   BOOST_TEST_REQUIRE(plates.runs.size() == 2U);
