@@ -7,18 +7,11 @@
 #include <vector>
 
 #include "hinge/scene/scene.hpp"
+#include "tests/steps.hpp"
 
 namespace diptych {
 
-/// So many steps, with a sample after the last.
-inline Stepping steps_of(double time_step, long steps, Books books = Books::lines) {
-  Stepping stepping;
-  stepping.time_step = time_step;
-  stepping.steps = steps;
-  stepping.sample_after = {steps};
-  stepping.books = books;
-  return stepping;
-}
+using tests::steps_of;
 
 /// A run that was cut off has no samples.
 template <class AnyRecord>

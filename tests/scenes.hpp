@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "hinge/scene/scene.hpp"
+#include "tests/steps.hpp"
 
 namespace diptych::tests {
 
@@ -21,13 +22,6 @@ inline Scene step_scene(double traction = 1) {
 }
 
 /// Steps at a Courant number on `cells` cells, sampled at the end.
-inline Stepping steps_at(double courant, int cells, long steps) {
-  Stepping stepping;
-  stepping.time_step = courant * 0.01 / cells;
-  stepping.steps = steps;
-  stepping.sample_after = {steps};
-  stepping.books = Books::lines;
-  return stepping;
-}
+inline Stepping steps_at(double courant, int cells, long steps) { return steps_of(courant * 0.01 / cells, steps); }
 
 }  // namespace diptych::tests

@@ -14,8 +14,10 @@
 #include <vector>
 
 #include "hinge/diffusion/cholesky.hpp"
+#include "tests/fields.hpp"
 
 using namespace diptych::diffusion;
+using namespace diptych::tests;
 namespace tt = boost::test_tools;
 namespace bdata = boost::unit_test::data;
 
@@ -28,14 +30,6 @@ constexpr std::array every_scheme{Scheme::forward_euler, Scheme::sub_cycled, Sch
 const char* name(Scheme scheme) {
   constexpr std::array names{"forward Euler", "sub-cycled", "RKL2", "backward Euler", "Crank-Nicolson"};
   return names[static_cast<std::size_t>(scheme)];
-}
-
-std::vector<double> random_values(std::size_t count, unsigned seed, double low = 0, double high = 1) {
-  std::mt19937 generator(seed);
-  std::uniform_real_distribution<double> draw(low, high);
-  std::vector<double> values(count);
-  for (double& v : values) v = draw(generator);
-  return values;
 }
 
 /// f(x, y) at every node.
@@ -96,15 +90,6 @@ double factor(Scheme scheme, double z) {
     case Scheme::crank_nicolson: break;
   }
   return (1 - z / 2) / (1 + z / 2);
-}
-
-double largest_difference(std::span<const double> a, std::span<const double> b) {
-  double largest = 0;
-  for (std::size_t k = 0; k < a.size(); ++k) {
-    const double difference = std::abs(a[k] - b[k]);
-    if (!(difference <= largest)) largest = difference;
-  }
-  return largest;
 }
 
 /// Root mean square over the nodes that `where` takes.

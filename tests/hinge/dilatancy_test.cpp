@@ -10,7 +10,10 @@
 #include <utility>
 #include <vector>
 
+#include "tests/fields.hpp"
+
 using namespace diptych::diffusion;
+using namespace diptych::tests;
 namespace tt = boost::test_tools;
 
 namespace {
@@ -27,14 +30,6 @@ const char* name(Scheme scheme) {
 
 bool is_implicit(Scheme scheme) { return scheme == Scheme::backward_euler || scheme == Scheme::crank_nicolson; }
 
-std::vector<double> random_values(std::size_t count, unsigned seed, double low = 0, double high = 1) {
-  std::mt19937 generator(seed);
-  std::uniform_real_distribution<double> draw(low, high);
-  std::vector<double> values(count);
-  for (double& v : values) v = draw(generator);
-  return values;
-}
-
 /// A step that the scheme takes: below the limit of forward Euler, or ten times as long.
 double step(Scheme scheme, const Grid& g, double d) {
   return (scheme == Scheme::forward_euler ? 0.9 : 9.0) * forward_euler_limit(g, d);
@@ -49,15 +44,6 @@ std::vector<double> columns(const Grid& g, int column, double low, double high) 
     for (int i = 0; i < g.nx; ++i) values.push_back(i < column ? low : high);
   }
   return values;
-}
-
-double largest_difference(std::span<const double> a, std::span<const double> b) {
-  double largest = 0;
-  for (std::size_t k = 0; k < a.size(); ++k) {
-    const double difference = std::abs(a[k] - b[k]);
-    if (!(difference <= largest)) largest = difference;
-  }
-  return largest;
 }
 
 /// V_d of a falling profile at V_d,max = 1 beside a face. With V_d = 1 − f′(ξ) where x/√(d0 t) = f(ξ) the equation is

@@ -11,6 +11,7 @@
 
 #include "fem/bar.hpp"
 #include "mpm/bar.hpp"
+#include "tests/bar_methods.hpp"
 #include "tests/scenes.hpp"
 #include "tests/text.hpp"
 
@@ -21,14 +22,8 @@ namespace bdata = boost::unit_test::data;
 
 namespace {
 
-constexpr std::array schemes{mpm::Scheme::usf, mpm::Scheme::usl, mpm::Scheme::musl};
 const std::array methods{"fem", "usf", "usl", "musl"};
 constexpr int fem_method = 0, usf = 1, usl = 2, musl = 3;
-
-Record go(int method, const Scene& scene, int cells, const std::vector<double>& xi, const Stepping& s) {
-  return method == fem_method ? fem::run(scene, cells, s)
-                              : mpm::run(scene, cells, xi, schemes[static_cast<std::size_t>(method - 1)], s);
-}
 
 Stepping stepping(double time_step, long steps) {
   Stepping s;
@@ -269,7 +264,7 @@ BOOST_AUTO_TEST_CASE(an_unstable_run_is_found_without_books) {
     for (const Books kept : {Books::off, Books::sums}) {
       Stepping how = stepping(2.5e-4, 3000);  // Courant number 1.25
       how.books = kept;
-      const Record r = go(method, scene_of({elastic, false, false, 1}), 50, {0.25, 0.75}, how);
+      const Record r = run_bars(method, scene_of({elastic, false, false, 1}), 50, how);
       BOOST_TEST((r.outcome == Outcome::unstable));
       BOOST_TEST(r.steps < 200);
       BOOST_TEST(r.message.ends_with(", at step " + std::to_string(r.steps)));
@@ -283,7 +278,7 @@ BOOST_AUTO_TEST_CASE(a_short_run_is_looked_at_in_the_end) {
   for (const int method : {fem_method, usf, usl, musl}) {
     Stepping how = stepping(4e-4, 40);  // Courant number 2
     how.books = Books::off;
-    const Record r = go(method, scene_of({elastic, false, false, 1}), 50, {0.25, 0.75}, how);
+    const Record r = run_bars(method, scene_of({elastic, false, false, 1}), 50, how);
     BOOST_TEST((r.outcome == Outcome::unstable));
     BOOST_TEST(r.steps == 40);
     BOOST_TEST(r.message.starts_with("more energy than was put in: "));
@@ -302,7 +297,7 @@ BOOST_DATA_TEST_CASE(nothing_is_lost_in_any_scene, bdata::make({0, 1, 2, 3}) * b
         const Kind kind{m, moving, viscous, which};
         Stepping how = stepping(2e-5, 1500);
         if (method == usf && moving) how.gains = 0.1;  // where its particles cross cells
-        const Record r = go(method, scene_of(kind), 50, {0.25, 0.75}, how);
+        const Record r = run_bars(method, scene_of(kind), 50, how);
         BOOST_TEST_CONTEXT(name_of(method, kind) << ": " << r.message) {
           books_close(r, which == 0 ? 1.1 : 0.5);
           if (method == usl && moving) continue;  // never stable, but its books are kept while it lasts
@@ -322,7 +317,7 @@ BOOST_DATA_TEST_CASE(the_scheme_takes_exactly_nothing_where_theory_says_so, bdat
                      method) {
   for (const int which : {1, 2, 3}) {
     for (const bool viscous : {false, true}) {
-      const Record r = go(method, scene_of({elastic, false, viscous, which}), 50, {0.25, 0.75}, stepping(2e-5, 1500));
+      const Record r = run_bars(method, scene_of({elastic, false, viscous, which}), 50, stepping(2e-5, 1500));
       for (const LedgerLine& line : r.ledger) BOOST_TEST_REQUIRE(line.scheme == 0.0);
     }
   }
@@ -342,7 +337,7 @@ BOOST_AUTO_TEST_CASE(usl_takes_what_theory_says) {
     scene.bars[0].material = elastic;
     scene.left = scene.right = Support::fixed;
     scene.bars[0].initial_velocity = [=](double x) { return std::sin(mode * pi * x); };
-    const Record r = go(usl, scene, 50, {0.5}, stepping(1e-4, 400));  // C = ½
+    const Record r = run_bars(usl, scene, 50, stepping(1e-4, 400), {0.5});  // C = ½
     const double s = std::sin(mode * pi / 100), kept = std::pow(1 - s * s * s * s, 400);
     const double start = r.ledger.front().kinetic + r.ledger.front().strain;
     BOOST_TEST(r.ledger.back().scheme / start == 1 - kept, tt::tolerance(0.01));

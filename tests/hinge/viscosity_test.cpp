@@ -11,7 +11,9 @@
 
 #include "fem/bar.hpp"
 #include "mpm/bar.hpp"
+#include "tests/bar_methods.hpp"
 #include "tests/scenes.hpp"
+#include "tests/steps.hpp"
 
 using namespace diptych;
 using namespace diptych::tests;
@@ -22,18 +24,8 @@ namespace bdata = boost::unit_test::data;
 
 namespace {
 
-constexpr std::array schemes{mpm::Scheme::usf, mpm::Scheme::usl, mpm::Scheme::musl};
 const Viscosity york{Form::york, 0.5, 2, 0.75, 1.25};
 const Viscosity common{Form::linear_quadratic, 0.5, 2};
-
-Stepping stepping(double time_step, long steps) {
-  Stepping s;
-  s.time_step = time_step;
-  s.steps = steps;
-  s.sample_after = {steps};
-  s.books = Books::lines;
-  return s;
-}
 
 /// A free bar of length 1 whose ends close in at ±1, velocity linear between.
 Scene squeezed(std::optional<Viscosity> viscosity, material::Material m = material::Elastic{1e4, 2}) {
@@ -43,12 +35,6 @@ Scene squeezed(std::optional<Viscosity> viscosity, material::Material m = materi
   scene.bars[0].initial_velocity = [](double x) { return 1 - 2 * x; };
   scene.viscosity = viscosity;
   return scene;
-}
-
-/// Method 0 is FEM, 1 to 3 are MPM's schemes.
-Record go(int method, const Scene& scene, int cells, const Stepping& s, const std::vector<double>& xi = {0.25, 0.75}) {
-  return method == 0 ? fem::run(scene, cells, s)
-                     : mpm::run(scene, cells, xi, schemes[static_cast<std::size_t>(method - 1)], s);
 }
 
 void same_bits(const Record& a, const Record& b) {
@@ -150,7 +136,7 @@ BOOST_AUTO_TEST_CASE(two_steps_of_one_element_by_hand) {
   const double dt = 1e-4, c = std::sqrt(5e3), sigma = 1e4 * -2 * dt;
   for (const Viscosity& v : {york, common}) {
     const double q = v.form == Form::york ? 2 * 0.75 * c * 1.25 * -2 * 2.5 : 2 * (0.5 * c * -2 - 2 * 4);
-    const Record r = fem::run(squeezed(v), 1, stepping(dt, 2));
+    const Record r = fem::run(squeezed(v), 1, steps_of(dt, 2));
     const auto& velocity = r.snapshots[0].velocity.value;
     BOOST_TEST(velocity[0] == 1 + dt * (sigma + q), tt::tolerance(1e-14));
     BOOST_TEST(velocity[1] == -1 - dt * (sigma + q), tt::tolerance(1e-14));
@@ -168,7 +154,7 @@ BOOST_AUTO_TEST_CASE(two_steps_of_one_cell_by_hand) {
   const double dt = 1e-4, c = std::sqrt(5e3), sigma = 1e4 * -0.5 * dt;
   for (const Viscosity& v : {york, common}) {
     const double q = v.form == Form::york ? 2 * 0.75 * c * 1.25 * -0.5 * 2.5 : 2 * (0.5 * c * -0.5 - 2 * 0.25);
-    const Record r = mpm::run(squeezed(v), 1, {0.25, 0.75}, mpm::Scheme::musl, stepping(dt, 2));
+    const Record r = mpm::run(squeezed(v), 1, {0.25, 0.75}, mpm::Scheme::musl, steps_of(dt, 2));
     const auto& velocity = r.snapshots[0].velocity.value;
     BOOST_TEST(velocity[0] == 0.5 + dt * (sigma + q) / 2, tt::tolerance(1e-14));
     BOOST_TEST(velocity[1] == -0.5 - dt * (sigma + q) / 2, tt::tolerance(1e-14));
@@ -186,7 +172,7 @@ BOOST_DATA_TEST_CASE(bars_share_the_fastest_wave_and_the_largest_rate, bdata::ma
     scene.bars[1].material = material::Elastic{8e4, 1};
     scene.bars[1].initial_velocity = [](double x) { return 1 - 2 * (x - 2); };
     const double dt = 1e-5, c1 = std::sqrt(5e3), c2 = std::sqrt(8e4);
-    const Record r = go(method, scene, 1, stepping(dt, 2), {0.25, 0.75});
+    const Record r = run_bars(method, scene, 1, steps_of(dt, 2), {0.25, 0.75});
     // FEM sees rates of −1 and −2; half of a particle's speed is lost to the grid's: −¼ and −½
     const double rate = method == 0 ? 1 : 0.25, sigma = -1e4 * rate * dt, sigma2 = -8e4 * 2 * rate * dt;
     const double q1 = v.form == Form::york ? -2 * 0.75 * c2 * 1.25 * rate * (0.5 + 2 * 0.5)
@@ -205,7 +191,7 @@ BOOST_DATA_TEST_CASE(without_constants_it_changes_no_bit, bdata::make({0, 1, 2, 
     for (const bool moving : {false, true}) {
       Scene with = squeezed(Viscosity{form, 0, 0}), without = squeezed({});
       with.convected = without.convected = moving;
-      same_bits(go(method, without, 20, stepping(2e-4, 300)), go(method, with, 20, stepping(2e-4, 300)));
+      same_bits(run_bars(method, without, 20, steps_of(2e-4, 300)), run_bars(method, with, 20, steps_of(2e-4, 300)));
     }
   }
 }
@@ -217,7 +203,8 @@ BOOST_DATA_TEST_CASE(acting_always_it_knows_no_sign, bdata::make({0, 1, 2, 3}), 
     const Scene squeeze = squeezed(v);
     Scene pull = squeeze;
     pull.bars[0].initial_velocity = [](double x) { return 2 * x - 1; };
-    const Record a = go(method, squeeze, 16, stepping(2e-5, 500)), b = go(method, pull, 16, stepping(2e-5, 500));
+    const Record a = run_bars(method, squeeze, 16, steps_of(2e-5, 500)),
+                 b = run_bars(method, pull, 16, steps_of(2e-5, 500));
     BOOST_REQUIRE((a.outcome == Outcome::completed));
     std::vector<double> stress = a.snapshots[0].stress.value, velocity = a.snapshots[0].velocity.value;
     for (double& x : stress) x = -x;
@@ -238,7 +225,7 @@ BOOST_AUTO_TEST_CASE(a_tensile_front_never_feels_it) {
     without.bars[0].material = material::Elastic{16384, 1};
     Scene with = without;
     with.viscosity = york;
-    Stepping s = stepping(1.0 / 8192, traction > 0 ? 60 : 3);  // in compression Courant number 1 is too much
+    Stepping s = steps_of(1.0 / 8192, traction > 0 ? 60 : 3);  // in compression Courant number 1 is too much
     s.gains = 1e3;
     const Record a = fem::run(without, 64, s), b = fem::run(with, 64, s);
     if (traction > 0) {
@@ -252,8 +239,8 @@ BOOST_AUTO_TEST_CASE(a_tensile_front_never_feels_it) {
 
 BOOST_DATA_TEST_CASE(it_is_told_among_the_features_and_takes_memory_only_where_it_is, bdata::make({0, 1, 2, 3}),
                      method) {
-  const Record without = go(method, squeezed({}), 20, stepping(1e-5, 10)),
-               with = go(method, squeezed(common), 20, stepping(1e-5, 10));
+  const Record without = run_bars(method, squeezed({}), 20, steps_of(1e-5, 10)),
+               with = run_bars(method, squeezed(common), 20, steps_of(1e-5, 10));
   BOOST_TEST(without.features == std::vector<std::string>{"elastic"}, tt::per_element());
   BOOST_TEST(with.features == (std::vector<std::string>{"elastic", "viscosity"}), tt::per_element());
   const std::size_t points = method == 0 ? 20 : 40;
@@ -263,7 +250,7 @@ BOOST_DATA_TEST_CASE(it_is_told_among_the_features_and_takes_memory_only_where_i
 // Work of a pressure on compression: each step adds to it, and the motion has as much less.
 BOOST_DATA_TEST_CASE(its_work_is_heat_and_stands_in_the_books, bdata::make({0, 1, 3}), method) {
   for (const Viscosity& v : {york, common}) {
-    const Record r = go(method, squeezed(v), 20, stepping(2e-5, 4000));
+    const Record r = run_bars(method, squeezed(v), 20, steps_of(2e-5, 4000));
     BOOST_REQUIRE((r.outcome == Outcome::completed));
     const double start = r.ledger[0].kinetic + r.ledger[0].strain + r.ledger[0].viscous;
     double before = r.ledger[0].viscous;
@@ -284,7 +271,7 @@ BOOST_DATA_TEST_CASE(a_compressive_front_does_not_ring, bdata::make({0, 3}), met
   const auto peak = [&](std::optional<Viscosity> v) {
     Scene scene = step_scene(-1);
     scene.viscosity = v;
-    const Record r = go(method, scene, 100, stepping(0.2 * 1e-4, 250));
+    const Record r = run_bars(method, scene, 100, steps_of(0.2 * 1e-4, 250));
     double largest = 0;
     for (const double stress : r.snapshots[0].stress.value) largest = std::max(largest, -stress);
     return largest;

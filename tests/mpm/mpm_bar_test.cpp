@@ -6,6 +6,7 @@
 
 #include "analytic/discrete.hpp"
 #include "mpm/bar.hpp"
+#include "tests/bar_methods.hpp"
 #include "tests/scenes.hpp"
 #include "tests/text.hpp"
 
@@ -16,8 +17,6 @@ namespace tt = boost::test_tools;
 namespace bdata = boost::unit_test::data;
 
 namespace {
-
-constexpr std::array schemes{Scheme::usf, Scheme::usl, Scheme::musl};
 
 bool all_zero(const Field& f) {
   return std::all_of(f.value.begin(), f.value.end(), [](double v) { return v == 0; });
