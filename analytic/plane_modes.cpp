@@ -154,9 +154,4 @@ void StandingSWave::pose_sides(PlaneProblem& p) const {
   };
 }
 
-PlaneProblem lame_problem(const SquareMode& parameters) { return LameMode(parameters).problem(); }
-PlaneProblem roller_problem(const SquareMode& parameters) { return RollerMode(parameters).problem(); }
-PlaneProblem p_wave_problem(const RectangleMode& parameters) { return StandingPWave(parameters).problem(); }
-PlaneProblem s_wave_problem(const RectangleMode& parameters) { return StandingSWave(parameters).problem(); }
-
 }  // namespace diptych::analytic

@@ -101,10 +101,4 @@ class StandingSWave final : public PlaneMode {
   void pose_sides(PlaneProblem&) const override;
 };
 
-/// The equations that these parameters pose, for the self-test of any solution of them.
-PlaneProblem lame_problem(const SquareMode&);
-PlaneProblem roller_problem(const SquareMode&);
-PlaneProblem p_wave_problem(const RectangleMode&);
-PlaneProblem s_wave_problem(const RectangleMode&);
-
 }  // namespace diptych::analytic

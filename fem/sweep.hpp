@@ -41,7 +41,7 @@ struct CornerForces {
 
   /// The last cell's forces on the right become those before the next block.
   void carry(std::size_t cells) {
-    for (std::size_t c : {0, 1}) {
+    for (const std::size_t c : {std::size_t{0}, std::size_t{1}}) {
       lower_right[c][0] = lower_right[c][cells];
       upper_right[c][0] = upper_right[c][cells];
     }

@@ -9,8 +9,8 @@
 #include "mpm/plate_law.hpp"
 
 // The same bits on every processor: wider registers, no fused multiply-add. (ThreadSanitizer cannot start a program
-// that chooses its functions while loading.)
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__SANITIZE_THREAD__)
+// that chooses its functions while loading, and clang chooses no templates.)
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__)
 #define DIPTYCH_WIDE [[gnu::target_clones("avx2", "default")]]
 #else
 #define DIPTYCH_WIDE

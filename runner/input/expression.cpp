@@ -101,7 +101,7 @@ struct Expression::Impl {
   }
 
   std::string explained(const mu::ParserError& error) const {
-    const std::string token = error.GetToken();
+    const std::string& token = error.GetToken();
     if (error.GetCode() != mu::ecUNASSIGNABLE_TOKEN || token.empty()) return reason_of(error);
     const std::string where = " at position " + std::to_string(error.GetPos() + 1);
     if (!is_name(token)) {

@@ -190,20 +190,24 @@ analytic::PlaneSetting plane_setting(const PlateSpec& plate) {
   return setting;
 }
 
+const analytic::PlaneSolutionRow* plane_solution_of(const PlateSpec& plate) {
+  for (const analytic::PlaneSolutionRow& row : analytic::plane_solutions())
+    if (row.name == plate.exact.solution) return &row;
+  return nullptr;
+}
+
 std::unique_ptr<analytic::PlaneSolution> make_plane_exact(const Case& c) {
   const PlateSpec& plate = *c.plate;
   if (plate.exact.solution == "expressions") return std::make_unique<PlaneExpressions>(c);
-  for (const analytic::PlaneSolutionRow& row : analytic::plane_solutions()) {
-    if (row.name != plate.exact.solution) continue;
-    analytic::PlaneSetting setting = plane_setting(plate);
-    if (plate.material) setting.medium = medium_of(plate);
-    if (const auto& diffusion = plate.diffusion) {
-      setting.diffusivity = diffusion->spread ? diffusion->spread->diffusivity : diffusivity_at(c, 0, 0);
-      if (diffusion->spread) setting.profile = profile_of(diffusion->spread->profile);
-    }
-    return row.make(setting);
+  const analytic::PlaneSolutionRow* row = plane_solution_of(plate);
+  if (!row) return nullptr;
+  analytic::PlaneSetting setting = plane_setting(plate);
+  if (plate.material) setting.medium = medium_of(plate);
+  if (const auto& diffusion = plate.diffusion) {
+    setting.diffusivity = diffusion->spread ? diffusion->spread->diffusivity : diffusivity_at(c, 0, 0);
+    if (diffusion->spread) setting.profile = profile_of(diffusion->spread->profile);
   }
-  return nullptr;
+  return row->make(setting);
 }
 
 analytic::FrontProfile profile_of(diffusion::Profile profile) {

@@ -29,6 +29,8 @@ std::optional<diffusion::Spread> spread_of(const Case&, int cells);
 
 /// The scene of one run on so many cells. Holds expressions of its own: make one for each thread.
 Plate make_plate(const Case&, int cells);
+/// The row of the plate's exact solution; null where it names none or gives expressions.
+const analytic::PlaneSolutionRow* plane_solution_of(const PlateSpec&);
 /// The plate as exact solutions see it, but for its medium and its diffusivity.
 analytic::PlaneSetting plane_setting(const PlateSpec&);
 /// The exact solution, or null where the case names none.

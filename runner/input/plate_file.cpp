@@ -359,7 +359,6 @@ void read_plate_exact(Table& t, Case& c) {
     return t.applies(key, "solution", exact.solution, owners);
   };
   exact.parameters = read_solution_parameters(t, exact.solution, analytic::plane_solutions(), {"core"});
-  if (exact.parameters.contains("core")) exact.core = exact.parameters["core"];
   const Names xyt{"x", "y", "t"};
   if (of("displacement", {"expressions"})) exact.displacement = read_components<2>(t, "displacement", xyt, c);
   if (of("velocity", {"expressions"})) exact.velocity = read_components<2>(t, "velocity", xyt, c);
@@ -371,11 +370,9 @@ void read_plate_exact(Table& t, Case& c) {
         .say(
             "found \"expressions\" without one; allowed: at least one of the keys displacement, velocity, stress, "
             "concentration");
-  for (const analytic::PlaneSolutionRow& row : analytic::plane_solutions()) {
-    if (row.name != exact.solution) continue;
-    for (const std::string& misfit : row.misfits(plane_setting(*c.plate)))
+  if (const analytic::PlaneSolutionRow* row = plane_solution_of(*c.plate))
+    for (const std::string& misfit : row->misfits(plane_setting(*c.plate)))
       t.place("solution").say("found " + words(exact.solution) + " " + misfit);
-  }
 }
 
 /// What a variant may change: all that makes the scene.

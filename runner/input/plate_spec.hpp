@@ -41,10 +41,15 @@ using Triple = std::array<std::string, 3>;
 struct PlateExact {
   std::string solution = "none";            ///< one of analytic::plane_solutions, "expressions" or "none"
   analytic::SolutionParameters parameters;  ///< those of the solution
-  double core = 0;                          ///< radius around the origin where nothing is compared [m]
   Pair displacement, velocity;
   Triple stress;
   std::string concentration;
+
+  /// Radius around the origin where nothing is compared [m].
+  double core() const {
+    const auto given = parameters.find("core");
+    return given == parameters.end() ? 0 : given->second;
+  }
 };
 
 /// A diffusion scene without mechanics.

@@ -59,7 +59,7 @@ double blow_up_strength(const Case& c) { return viscosity_strength(c) / (c.visco
 BarLeaf::BarLeaf(const Case& case_of_leaf, const Leaf& one)
     : LeafScene(case_of_leaf, one, panel(one.method), panel(one.method).bars, make_scene(case_of_leaf, one.cells),
                 {one.cells, one.particles}),
-      exact_(make_exact(case_of_leaf, one)) {}
+      exact_([&case_of_leaf, &one] { return make_exact(case_of_leaf, one); }) {}
 
 double BarLeaf::unit_time_step() const { return scene.bars[0].length / mesh.cells / largest_wave_speed(scene); }
 
@@ -79,9 +79,8 @@ std::optional<double> BarLeaf::mass() const {
   return mass;
 }
 
-void BarLeaf::trace(const Record& record, const Stepping& stepping, reports::Run& run) const {
-  const std::vector<long> motion = more_samples(stepping);
-  if (!motion.empty()) trace_paths(taken_after(motion, record.snapshots), scene, exact_.get(), run);
+void BarLeaf::trace(const Record& record, const std::vector<long>& more, const Stepping&, reports::Run& run) const {
+  if (!more.empty()) trace_paths(taken_after(more, record.snapshots), scene, exact_.get(), run);
 }
 
 reports::Sample BarLeaf::sample(const Snapshot& own, const Snapshot& at, double asked, bool,
@@ -94,26 +93,27 @@ reports::Sample BarLeaf::sample(const Snapshot& own, const Snapshot& at, double 
   sample.asked = asked;
   sample.time = (time - origin) / unit;
   const auto theory = discretisation(c, leaf, run.courant);
+  const analytic::ExactSolution* exact = exact_.get();
   for (const auto& [q, name] : quantities) {
     const Field& field = field_of(own, q);
     if (drawn(c, leaf, "profiles")) {
       sample.curves[name] = polyline(at, q, leaf, moves);
-      if (exact_ && exact_->gives(q)) {
-        sample.exact_curves[name] = exact_line(*exact_, q, bars, at.displacement.time, moves);
+      if (exact && exact->gives(q)) {
+        sample.exact_curves[name] = exact_line(*exact, q, bars, at.displacement.time, moves);
       }
     }
-    if (!exact_ || !exact_->gives(q)) continue;
-    const double scale = exact_->scale(q);
-    const Norms norms = error_norms(field, *exact_, q, bars);
+    if (!exact || !exact->gives(q)) continue;
+    const double scale = exact->scale(q);
+    const Norms norms = error_norms(field, *exact, q, bars);
     reports::FieldError error{name, (field.time - origin) / unit, scale, norms.l1, norms.l2, norms.linf, {}, {}, {}};
     const auto predicted = [&](analytic::Norm norm) {
       const double cell = c.first().length / leaf.cells;
       const double nu = c.viscosity ? viscosity_strength(c) * material::wave_speed(c.first().material) * cell : 0;
       std::optional<double> value;
       if (c.viscosity)
-        value = analytic::viscous_step_error(*exact_, nu, q, norm, field.time);
+        value = analytic::viscous_step_error(*exact, nu, q, norm, field.time);
       else if (theory)
-        value = analytic::predicted_error(*exact_, *theory, q, norm, field.time);
+        value = analytic::predicted_error(*exact, *theory, q, norm, field.time);
       if (value) *value /= scale;
       return value;
     };

@@ -1,8 +1,6 @@
 // A run of bars.
 #pragma once
 
-#include <memory>
-
 #include "runner/run/leaf_scene.hpp"
 
 namespace diptych::runner {
@@ -16,7 +14,7 @@ class BarLeaf final : public LeafScene<Scene, BarMesh, Record> {
   Read reads(bool) const override { return Read::all; }
   std::vector<long> more_samples(const Stepping&) const override;
   std::optional<double> mass() const override;
-  void trace(const Record&, const Stepping&, reports::Run&) const override;
+  void trace(const Record&, const std::vector<long>&, const Stepping&, reports::Run&) const override;
   reports::Sample sample(const Snapshot& own, const Snapshot& at, double asked, bool keep_fields,
                          const reports::Run&) const override;
   void measure(const Record&, const Stepping&, reports::Run&) const override;
@@ -32,7 +30,7 @@ class BarLeaf final : public LeafScene<Scene, BarMesh, Record> {
   void measure_alone(const Record&, const Stepping&, reports::Run&) const;
   void measure_against_fem(const Record&, const Stepping&, reports::Run&) const;
 
-  std::unique_ptr<analytic::ExactSolution> exact_;
+  WhenAsked<analytic::ExactSolution> exact_;
 };
 
 /// Size of a cell and unknowns.

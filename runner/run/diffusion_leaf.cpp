@@ -14,7 +14,7 @@ namespace diptych::runner {
 DiffusionLeaf::DiffusionLeaf(const Case& case_of_leaf, const Leaf& one)
     : LeafScene(case_of_leaf, one, panel(one.method), panel(one.method).diffusion, make_diffusion(case_of_leaf),
                 grid_of(*case_of_leaf.plate, one.cells)),
-      exact_(make_plane_exact(case_of_leaf)) {
+      exact_([&case_of_leaf] { return make_plane_exact(case_of_leaf); }) {
   const DiffusivityRange range = range_of(scene, mesh);
   if (range.wrong)
     throw InputError(fmt::format("{}: diffusion.diffusivity: found {:g} at the middle of some cell; allowed: >= 0",

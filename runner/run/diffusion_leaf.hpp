@@ -1,8 +1,6 @@
 // A run of diffusion without mechanics.
 #pragma once
 
-#include <memory>
-
 #include "analytic/plane_exact.hpp"
 #include "runner/run/leaf_scene.hpp"
 
@@ -23,7 +21,7 @@ class DiffusionLeaf final : public LeafScene<DiffusionScene, diffusion::Grid, Pl
   double differing(const PlateRecord&, const PlateRecord&, const PowersOfTwo&, bool mirror) const override;
 
  private:
-  std::unique_ptr<analytic::PlaneSolution> exact_;
+  WhenAsked<analytic::PlaneSolution> exact_;
   double largest_diffusivity_;
 };
 

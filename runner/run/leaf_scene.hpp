@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -17,6 +19,22 @@
 #include "runner/run/instants.hpp"
 
 namespace diptych::runner {
+
+/// An exact solution that is made when it is first asked for: front tracking can cost more than the run, and what looks
+/// ahead at a run needs none. Null where the case names none.
+template <class Solution>
+class WhenAsked {
+ public:
+  explicit WhenAsked(std::function<std::unique_ptr<Solution>()> make) : make_(std::move(make)) {}
+  const Solution* get() const {
+    if (make_) made_ = std::exchange(make_, nullptr)();
+    return made_.get();
+  }
+
+ private:
+  mutable std::function<std::unique_ptr<Solution>()> make_;
+  mutable std::unique_ptr<Solution> made_;
+};
 
 /// One leaf of a case, built: the scene and its mesh, which travel together, and the panel that solves it. `c` is the
 /// case as the leaf has it; both must outlive this.
@@ -40,7 +58,8 @@ class LeafScene {
   virtual std::optional<double> mass() const = 0;  ///< [kg], of a plate's thickness [kg/m]; none: no mechanics
 
   /// Histories of the whole run, from all of its snapshots.
-  virtual void trace(const R&, const Stepping&, reports::Run&) const {}
+  /// more: those of more_samples.
+  virtual void trace(const R&, const std::vector<long>& /*more*/, const Stepping&, reports::Run&) const {}
   /// own: errors are those of each field at its own time, next to the instant; at: what is read and drawn is the
   /// instant's.
   virtual reports::Sample sample(const Snapshot& own, const Snapshot& at, double asked, bool keep_fields,

@@ -33,7 +33,7 @@ PlateLeaf::PlateLeaf(const Case& case_of_leaf, const Leaf& one)
           case_of_leaf, one, panel(one.method), panel(one.method).plate,
           {make_plate(case_of_leaf, one.cells), case_of_leaf.plate->evolution, spread_of(case_of_leaf, one.cells)},
           {grid_of(*case_of_leaf.plate, one.cells), one.particles}),
-      exact_(make_plane_exact(case_of_leaf)) {}
+      exact_([&case_of_leaf] { return make_plane_exact(case_of_leaf); }) {}
 
 double PlateLeaf::unit_time_step() const {
   return std::min(mesh.grid.hx, mesh.grid.hy) / elastic(scene.plate).pressure_wave_speed();
@@ -53,7 +53,8 @@ std::optional<double> PlateLeaf::mass() const {
   return elastic(scene.plate).density * scene.plate.width * scene.plate.height;
 }
 
-void PlateLeaf::trace(const PlateRecord& record, const Stepping& stepping, reports::Run& run) const {
+void PlateLeaf::trace(const PlateRecord& record, const std::vector<long>&, const Stepping& stepping,
+                      reports::Run& run) const {
   for (std::size_t n = 0; n < record.platen.size(); ++n) {
     run.platen.x.push_back(static_cast<double>(n + 1) * stepping.time_step + record.platen_ahead);
     run.platen.y.push_back(record.platen[n]);
@@ -152,7 +153,7 @@ reports::Sample measure_plane_sample(const Case& c, const Leaf& leaf, const diff
   const auto compare = [&](PlaneQuantity q, const char* name, const PointField& field) {
     if (!exact || !exact->gives(q) || field.x.empty()) return;
     const double scale = exact->scale(q);
-    const Norms norms = plane_error(field, *exact, q, c.plate->exact.core);
+    const Norms norms = plane_error(field, *exact, q, c.plate->exact.core());
     reports::FieldError error{name, field.time, scale, norms.l1, norms.l2, norms.linf, {}, {}, {}};
     const auto theory = plane_discretisation(*c.plate, leaf, run.time_step);
     if (theory && q != PlaneQuantity::concentration) {

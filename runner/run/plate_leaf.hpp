@@ -1,8 +1,6 @@
 // A run of a plate.
 #pragma once
 
-#include <memory>
-
 #include "analytic/plane_exact.hpp"
 #include "runner/run/leaf_scene.hpp"
 
@@ -17,7 +15,7 @@ class PlateLeaf final : public LeafScene<PlateScene, PlateMesh, PlateRecord> {
   std::vector<double> instants() const override { return c.times; }
   Read reads(bool keep_fields) const override;
   std::optional<double> mass() const override;
-  void trace(const PlateRecord&, const Stepping&, reports::Run&) const override;
+  void trace(const PlateRecord&, const std::vector<long>&, const Stepping&, reports::Run&) const override;
   reports::Sample sample(const PlateSnapshot& own, const PlateSnapshot& at, double asked, bool keep_fields,
                          const reports::Run&) const override;
   void measure(const PlateRecord&, const Stepping&, reports::Run&) const override;
@@ -31,7 +29,7 @@ class PlateLeaf final : public LeafScene<PlateScene, PlateMesh, PlateRecord> {
  private:
   void measure_against_forward_euler(const PlateRecord&, const Stepping&, reports::Run&) const;
 
-  std::unique_ptr<analytic::PlaneSolution> exact_;
+  WhenAsked<analytic::PlaneSolution> exact_;
 };
 
 /// Size of a cell and unknowns.

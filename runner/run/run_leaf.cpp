@@ -96,7 +96,7 @@ reports::Run measured(const LeafScene<S, M, R>& it, const TimeStep& step, const 
   if (mass) measure_ledger(*mass, record.sums, record.ledger, run);
   if (record.outcome != Outcome::completed) return run;
 
-  it.trace(record, stepping, run);
+  it.trace(record, more, stepping, run);
   const auto own = taken_after(plan.nearest, record.snapshots);
   for (std::size_t i = 0; i < own.size(); ++i) {
     const auto at = at_instant(record.snapshots, own[i].step, stepping.time_step, instants[i]);
@@ -129,11 +129,10 @@ auto built(const Case& c, const Leaf& leaf, Act&& act) {
 
 }  // namespace
 
-reports::Run describe(const Case& whole, const Leaf& leaf) {
-  const auto c = case_of(whole, leaf);
+reports::Run describe(const Case& c, const Leaf& leaf) {
   const Panel& row = panel(leaf.method);
   reports::Run run;
-  run.case_id = c->id;
+  run.case_id = c.id;
   run.method = leaf.method;
   run.work_unit = row.work;
   run.cells = leaf.cells;
@@ -141,24 +140,22 @@ reports::Run describe(const Case& whole, const Leaf& leaf) {
   run.particles = particles_label(leaf.particles);
   run.parameters = parameters_label(leaf);
   run.status = "cancelled";
-  switch (kind_of(*c)) {
-    case SceneKind::bars: describe_bars(*c, leaf, run); break;
-    case SceneKind::plate: describe_plate(*c, leaf, run); break;
-    case SceneKind::diffusion: describe_diffusion(*c, leaf, run); break;
+  switch (kind_of(c)) {
+    case SceneKind::bars: describe_bars(c, leaf, run); break;
+    case SceneKind::plate: describe_plate(c, leaf, run); break;
+    case SceneKind::diffusion: describe_diffusion(c, leaf, run); break;
   }
   return run;
 }
 
-Outlook outlook(const Case& whole, const Leaf& leaf) {
-  const auto c = case_of(whole, leaf);
-  return built(*c, leaf, [](const auto& it) {
+Outlook outlook(const Case& c, const Leaf& leaf) {
+  return built(c, leaf, [](const auto& it) {
     return Outlook{{it.asked_time_step(), it.limit(), it.unit_time_step()}, it.instants().back()};
   });
 }
 
-reports::Run run_leaf(const Case& whole, const Leaf& leaf, const TimeStep& step, const Running& running) {
-  const auto c = case_of(whole, leaf);
-  return built(*c, leaf, [&](const auto& it) { return measured(it, step, running); });
+reports::Run run_leaf(const Case& c, const Leaf& leaf, const TimeStep& step, const Running& running) {
+  return built(c, leaf, [&](const auto& it) { return measured(it, step, running); });
 }
 
 reports::Run run_leaf(const Case& whole, const Leaf& leaf, const Running& running) {

@@ -27,7 +27,9 @@ struct Running {
   std::function<void(std::size_t done, std::size_t total)> progress = {};  ///< after each run, likewise
 };
 
-/// What a run of the case will be, before it is run.
+// The case of the next four is the one that the leaf has: see case_of.
+
+/// What a run will be, before it is run.
 reports::Run describe(const Case&, const Leaf&);
 
 /// What a run will take.
@@ -41,6 +43,8 @@ inline TimeStep step_of(const Case& c, const Leaf& leaf) { return outlook(c, lea
 /// One run of a leaf's scene, measured: errors, predictions, ledger, invariants and limits that the case's gates ask
 /// for.
 reports::Run run_leaf(const Case&, const Leaf&, const TimeStep&, const Running& = {});
-reports::Run run_leaf(const Case&, const Leaf&, const Running& = {});  ///< with the step that the leaf asks for
+
+/// The same of a case as it is written, with the step that the leaf asks for.
+reports::Run run_leaf(const Case&, const Leaf&, const Running& = {});
 
 }  // namespace diptych::runner

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "tests/spoiled.hpp"
+
 namespace {
 
 using namespace diptych::analytic;
@@ -33,25 +35,7 @@ void check_whole_bar(const BarWave& bar, Quantity quantity, double t, double exp
   for (int i = 0; i < 20; ++i) check(bar, quantity, bar.parameters().length * (i + 0.5) / 20, t, expected);
 }
 
-/// Another's solution, or a spoiled one.
-class Spoiled final : public ExactSolution {
- public:
-  using At = std::function<double(Quantity, double, double)>;
-  Spoiled(BarWave bar, At at) : bar_(std::move(bar)), at_(std::move(at)) {}
-  std::string name() const override { return "spoiled"; }
-  double residual(double) const override { return std::nan(""); }
-  double at(Quantity quantity, double x, double t) const override { return at_(quantity, x, t); }
-  std::vector<Front> fronts(double t) const override {
-    return spoil_fronts ? spoil_fronts(bar_.fronts(t)) : bar_.fronts(t);
-  }
-  double scale(Quantity quantity) const override { return bar_.scale(quantity); }
-
-  std::function<std::vector<Front>(std::vector<Front>)> spoil_fronts;
-
- private:
-  BarWave bar_;
-  At at_;
-};
+using Spoiled = diptych::tests::Spoiled<BarWave>;
 
 Residual residual_of(const ExactSolution& wrong) { return self_test(wrong, problem(fixed_free().parameters()), 0.07); }
 

@@ -10,6 +10,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "tests/spoiled_plane.hpp"
+
 namespace {
 
 using namespace diptych::analytic;
@@ -23,19 +25,14 @@ const FaceFront::Parameters plate{1, 0.3, 2, FrontProfile::falling, -0.03},
     plain_plate{1, 0.3, 2, FrontProfile::constant, -0.03}, rising_plate{1, 0.3, 2, FrontProfile::rising, -0.03};
 
 using At = std::function<double(double, double, double)>;
+using Spoiled = diptych::tests::SpoiledPlane;
 
-class Spoiled final : public PlaneSolution {
- public:
-  explicit Spoiled(At at) : at_(std::move(at)) {}
-  std::string name() const override { return "spoiled"; }
-  double residual(const PlaneWindow&) const override { return std::nan(""); }
-  bool gives(PlaneQuantity) const override { return true; }
-  std::array<double, 3> at(PlaneQuantity, double x, double y, double t) const override { return {at_(x, y, t), 0, 0}; }
-  double scale(PlaneQuantity) const override { return 1; }
-
- private:
-  At at_;
-};
+/// The one value of a concentration.
+Spoiled::At of(At at) {
+  return [at = std::move(at)](PlaneQuantity, double x, double y, double t) {
+    return std::array{at(x, y, t), 0.0, 0.0};
+  };
+}
 
 /// ∫₀^∞ f dη, over √η, with Simpson's rule.
 double integral(const std::function<double(double)>& f) {
@@ -221,7 +218,7 @@ BOOST_AUTO_TEST_CASE(self_test_sees_wrong_solutions) {
     const auto u = [&](double x, double t) {
       return right.at(PlaneQuantity::concentration, std::min(x, 1.0), 0, t)[0];
     };
-    const auto spoil = [&](At at) { return self_test(Spoiled(std::move(at)), p, 1e-4, 5e-3); };
+    const auto spoil = [&](At at) { return self_test(Spoiled(of(std::move(at))), p, 1e-4, 5e-3); };
     BOOST_TEST(spoil([&](double x, double, double t) { return u(x, t); }).worst() < 1e-7);
     BOOST_TEST(spoil([&](double x, double, double t) { return u(x, 1.01 * t); }).moment > 1e-3);
     BOOST_TEST(spoil([&](double x, double, double t) { return u(x, 1.01 * t); }).balance > 1e-4);

@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "tests/spoiled_plane.hpp"
+
 namespace {
 
 using namespace diptych::analytic;
@@ -16,20 +18,7 @@ using boost::test_tools::tolerance;
 using Quantity = PlaneQuantity;
 constexpr double pi = std::numbers::pi;
 
-using At = std::function<std::array<double, 3>(Quantity, double, double, double)>;
-
-class Spoiled final : public PlaneSolution {
- public:
-  explicit Spoiled(At at) : at_(std::move(at)) {}
-  std::string name() const override { return "spoiled"; }
-  double residual(const PlaneWindow&) const override { return std::nan(""); }
-  bool gives(Quantity) const override { return true; }
-  std::array<double, 3> at(Quantity q, double x, double y, double t) const override { return at_(q, x, y, t); }
-  double scale(Quantity) const override { return 1; }
-
- private:
-  At at_;
-};
+using Spoiled = diptych::tests::SpoiledPlane;
 
 const PlaneMedium strain = plane_medium(50e9, 0.3, 2500, false), stress = plane_medium(50e9, 0.3, 2500, true);
 
@@ -41,10 +30,10 @@ void for_all_modes(const F& f) {
       for (const int n : {1, 3}) {
         const SquareMode square{medium, 1.3, n, -2e-3, from_rest};
         const RectangleMode rectangle{medium, 1.3, 0.7, n, -2e-3, from_rest};
-        f(LameMode(square), lame_problem(square));
-        f(RollerMode(square), roller_problem(square));
-        f(StandingPWave(rectangle), p_wave_problem(rectangle));
-        f(StandingSWave(rectangle), s_wave_problem(rectangle));
+        f(LameMode(square), LameMode(square).problem());
+        f(RollerMode(square), RollerMode(square).problem());
+        f(StandingPWave(rectangle), StandingPWave(rectangle).problem());
+        f(StandingSWave(rectangle), StandingSWave(rectangle).problem());
       }
     }
   }
@@ -172,7 +161,7 @@ BOOST_AUTO_TEST_CASE(bad_parameters_are_refused) {
   BOOST_CHECK_THROW(mode.at(Quantity::stress, 0.5, 1.1, 0), std::domain_error);
   BOOST_CHECK_THROW(mode.at(Quantity::stress, 0.5, nan, 0), std::domain_error);
   BOOST_CHECK_THROW(mode.at(Quantity::stress, 0.5, 0.5, nan), std::domain_error);
-  BOOST_CHECK_THROW(self_test(mode, roller_problem({{1, 1, 1}, 1, 1, 1}), 0), std::invalid_argument);
+  BOOST_CHECK_THROW(self_test(mode, RollerMode({{1, 1, 1}, 1, 1, 1}).problem(), 0), std::invalid_argument);
 }
 
 BOOST_AUTO_TEST_CASE(self_test_passes_right_modes) {
@@ -186,7 +175,7 @@ BOOST_AUTO_TEST_CASE(self_test_passes_right_modes) {
 
 BOOST_AUTO_TEST_CASE(s_waves_may_have_free_sides) {
   const RectangleMode p{strain, 1, 0.5, 2, 1e-3, false};
-  auto problem = s_wave_problem(p);
+  auto problem = StandingSWave(p).problem();
   problem.left.support = problem.right.support = PlaneProblem::Support::free;
   BOOST_TEST(self_test(StandingSWave(p), problem, 1e-3).worst() < 1e-10);
   problem.bottom.support = PlaneProblem::Support::free;
@@ -197,7 +186,7 @@ BOOST_AUTO_TEST_CASE(self_test_fails_wrong_modes) {
   const SquareMode p{strain, 1, 2, 1e-3, true};
   const auto pass = [](const PlaneResidual& r) { return r.worst() < 1e-10; };
   for (const bool free : {true, false}) {
-    const auto problem = free ? lame_problem(p) : roller_problem(p);
+    const auto problem = free ? LameMode(p).problem() : RollerMode(p).problem();
     const LameMode lame(p);
     const RollerMode roller(p);
     const PlaneMode& mode = free ? static_cast<const PlaneMode&>(lame) : roller;

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "analytic/bar_wave.hpp"
+#include "tests/spoiled.hpp"
 
 namespace {
 
@@ -52,24 +53,7 @@ double integral(const PlasticImpact& two, double t, const std::function<double(d
   return sum;
 }
 
-class Spoiled final : public ExactSolution {
- public:
-  using At = std::function<double(Quantity, double, double)>;
-  Spoiled(PlasticImpact two, At at) : two_(std::move(two)), at_(std::move(at)) {}
-  std::string name() const override { return "spoiled"; }
-  double residual(double) const override { return std::nan(""); }
-  double at(Quantity quantity, double x, double t) const override { return at_(quantity, x, t); }
-  std::vector<Front> fronts(double t) const override {
-    return spoil_fronts ? spoil_fronts(two_.fronts(t)) : two_.fronts(t);
-  }
-  double scale(Quantity quantity) const override { return two_.scale(quantity); }
-
-  std::function<std::vector<Front>(std::vector<Front>)> spoil_fronts;
-
- private:
-  PlasticImpact two_;
-  At at_;
-};
+using Spoiled = diptych::tests::Spoiled<PlasticImpact>;
 
 /// Lumped linear elements, elastic and perfectly plastic, thrown at a rigid wall that does not pull.
 struct Thrown {

@@ -13,6 +13,7 @@
 #include "analytic/impact_lattice.hpp"
 #include "fem/plate.hpp"
 #include "mpm/plate.hpp"
+#include "tests/spoiled_plane.hpp"
 
 namespace {
 
@@ -25,20 +26,8 @@ const double nan_value = std::numeric_limits<double>::quiet_NaN();
 const PlaneMedium glass = plane_medium(72.8e9, 0.222, 2563, false);
 const PlateImpact::Parameters plates{glass, 12e-3, 3e-3, 5e-3, 684};
 
-using At = std::function<std::array<double, 3>(PlaneQuantity, double, double, double)>;
-
-class Spoiled final : public PlaneSolution {
- public:
-  explicit Spoiled(At at) : at_(std::move(at)) {}
-  std::string name() const override { return "spoiled"; }
-  double residual(const PlaneWindow&) const override { return std::nan(""); }
-  bool gives(PlaneQuantity) const override { return true; }
-  std::array<double, 3> at(PlaneQuantity q, double x, double y, double t) const override { return at_(q, x, y, t); }
-  double scale(PlaneQuantity) const override { return 1; }
-
- private:
-  At at_;
-};
+using Spoiled = diptych::tests::SpoiledPlane;
+using At = Spoiled::At;
 
 double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
   BOOST_REQUIRE(a.size() == b.size());

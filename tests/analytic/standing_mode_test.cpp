@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "tests/spoiled.hpp"
+
 namespace {
 
 using namespace diptych::analytic;
@@ -16,21 +18,7 @@ constexpr double pi = std::numbers::pi;
 
 constexpr std::pair<bool, bool> supports[] = {{true, false}, {false, true}, {true, true}, {false, false}};
 
-class Spoiled final : public ExactSolution {
- public:
-  using At = std::function<double(Quantity, double, double)>;
-  Spoiled(StandingMode mode, At at) : mode_(mode), at_(std::move(at)) {}
-  std::string name() const override { return "spoiled"; }
-  double residual(double) const override { return std::nan(""); }
-  double at(Quantity quantity, double x, double t) const override { return at_(quantity, x, t); }
-  std::vector<Front> fronts(double) const override { return fronts_; }
-  double scale(Quantity quantity) const override { return mode_.scale(quantity); }
-  std::vector<Front> fronts_;
-
- private:
-  StandingMode mode_;
-  At at_;
-};
+using Spoiled = diptych::tests::Spoiled<StandingMode>;
 
 }  // namespace
 
@@ -135,7 +123,7 @@ BOOST_AUTO_TEST_CASE(self_test_fails_wrong_modes) {
   BOOST_TEST(std::isnan(of([](Quantity, double, double) { return std::nan(""); }).worst()));
 
   Spoiled with_front(mode, same);
-  with_front.fronts_ = {{0.5, 1, 1.0, 0.5}};
+  with_front.spoil_fronts = [](std::vector<Front>) { return std::vector<Front>{{0.5, 1, 1.0, 0.5}}; };
   BOOST_TEST(residual(with_front).jump > 1);
 }
 

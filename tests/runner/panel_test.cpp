@@ -14,11 +14,16 @@
 #include "runner/input/leaf.hpp"
 #include "runner/judge/gates.hpp"
 #include "runner/run/runner.hpp"
+#include "tests/case_text.hpp"
 #include "tests/folder.hpp"
+#include "tests/messages.hpp"
+#include "tests/text.hpp"
 
 using namespace diptych;
 using namespace diptych::runner;
 using reports::Verdict;
+using tests::holds;
+using tests::replaced;
 
 namespace {
 
@@ -82,23 +87,7 @@ Panel foreign() {
   return row;
 }
 
-const char* const bar = R"(
-schema = 1
-id = "t"
-title = "t"
-claim = "code-verification"
-why = "t"
-units = "paper"
-[bar]
-length = 1.0
-[material]
-model = "elastic"
-E = 1e4
-rho = 1.0
-[supports]
-left = "fixed"
-right = "free"
-[[load]]
+const std::string bar = tests::head("t", "code-verification", "paper") + tests::paper_bar + R"([[load]]
 at = "right"
 history = "step"
 traction = 1.0
@@ -127,23 +116,8 @@ kind = "profiles"
 field = "displacement"
 )";
 
-const char* const plate = R"(
-schema = 1
-id = "t"
-title = "t"
-claim = "code-verification"
-why = "t"
-units = "SI"
-[plate]
-width = 1.0
-height = 0.5
-[material]
-model = "elastic"
-E = 1e4
-nu = 0.25
-rho = 1.0
-plane = "strain"
-[supports]
+const std::string plate = tests::head("t", "code-verification") + tests::plate("1.0", "0.5") +
+                          tests::elastic("1e4", "0.25", "1.0") + R"([supports]
 left = "roller"
 right = "roller"
 bottom = "roller"
@@ -171,25 +145,12 @@ where = { method = "other" }
 reason = "t"
 )";
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const auto at = text.find(from);
-  BOOST_TEST_REQUIRE(at != std::string::npos, from);
-  return text.replace(at, from.size(), to);
-}
-
 std::string with_gate(std::string text, const std::string& gate) { return text + "[[gate]]\nreason = \"t\"\n" + gate; }
 
 /// Why the text is refused; empty where it is not.
 std::string refusal(const std::string& text) {
-  try {
-    parse_case(text, "t.toml");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return {};
+  return tests::message_of<InputError>([&] { parse_case(text, "t.toml"); });
 }
-
-bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 reports::Case measured(const Case& c) {
   auto results = run_cases({c}, {});
@@ -208,7 +169,7 @@ BOOST_AUTO_TEST_CASE(an_unknown_method_falls_through_nowhere) {
       runner::panel(id);
       BOOST_ERROR("found " << id);
     } catch (const std::invalid_argument& error) {
-      BOOST_TEST(says(error.what(), "fem, mpm-usf, mpm-usl, mpm-musl, diffusion"), error.what());
+      BOOST_TEST(holds(error.what(), "fem, mpm-usf, mpm-usl, mpm-musl, diffusion"), error.what());
     }
   }
   const AddedPanel added(foreign());
@@ -237,7 +198,7 @@ BOOST_AUTO_TEST_CASE(every_row_has_a_name_and_solves_something) {
 }
 
 BOOST_AUTO_TEST_CASE(a_third_panel_is_one_row) {
-  BOOST_TEST(says(refusal(bar), "\"other\""));  // not there yet
+  BOOST_TEST(holds(refusal(bar), "\"other\""));  // not there yet
   const AddedPanel added(foreign());
   BOOST_TEST(refusal(bar) == "");
   for (const SceneKind kind : {SceneKind::bars, SceneKind::plate}) {
@@ -245,7 +206,7 @@ BOOST_AUTO_TEST_CASE(a_third_panel_is_one_row) {
     BOOST_TEST(panels_for(kind).back() == "other");
   }
   BOOST_TEST(panels_for(SceneKind::diffusion).size() == 1U);
-  BOOST_TEST(says(refusal(replaced(bar, "\"other\"]", "\"othr\"]")), "other"));  // listed, and the nearest
+  BOOST_TEST(holds(refusal(replaced(bar, "\"other\"]", "\"othr\"]")), "other"));  // listed, and the nearest
 
   const reports::Case bars = measured(parse_case(bar, "t.toml"));
   BOOST_TEST_REQUIRE(bars.runs.size() == 2U);
@@ -260,8 +221,8 @@ BOOST_AUTO_TEST_CASE(a_third_panel_is_one_row) {
     BOOST_TEST(!error.predicted_linf.has_value());
   }
 
-  BOOST_TEST(says(reports::text_table(bars), "== other, Courant number 0.5 asked =="));
-  BOOST_TEST(says(reports::results_jsonl({bars}, {}), "\"method\":\"other\""));
+  BOOST_TEST(holds(reports::text_table(bars), "== other, Courant number 0.5 asked =="));
+  BOOST_TEST(holds(reports::results_jsonl({bars}, {}), "\"method\":\"other\""));
 
   const reports::Case plates = measured(parse_case(plate, "t.toml"));
   BOOST_TEST_REQUIRE(plates.runs.size() == 2U);
@@ -283,7 +244,7 @@ BOOST_AUTO_TEST_CASE(it_is_drawn_with_its_own_look) {
   std::string message;
   reports::draw(figure, folder.path, message);
   const std::string gp = tests::contents(folder.path / "picture.gp");
-  BOOST_TEST(says(gp, "lw 1.1 lc rgb '#123456'"), gp);
+  BOOST_TEST(holds(gp, "lw 1.1 lc rgb '#123456'"), gp);
   BOOST_TEST(family_of_method("other") == "Other");
 }
 
@@ -294,23 +255,23 @@ BOOST_AUTO_TEST_CASE(without_theory_there_is_no_prediction) {
   const std::string step =
       "id = \"step\"\nkind = \"constant\"\nquantity = \"stress.L2\"\npredict = \"discrete-step\"\n"
       "ratio = [0.9, 1.1]\n";
-  BOOST_TEST(says(refusal(with_gate(bar, step)), "\"other\""));
-  BOOST_TEST(says(refusal(with_gate(bar, step)), "for \"fem\", \"mpm-usf\", \"mpm-usl\", \"mpm-musl\""),
+  BOOST_TEST(holds(refusal(with_gate(bar, step)), "\"other\""));
+  BOOST_TEST(holds(refusal(with_gate(bar, step)), "for \"fem\", \"mpm-usf\", \"mpm-usl\", \"mpm-musl\""),
              refusal(with_gate(bar, step)));
   BOOST_TEST(refusal(with_gate(bar, step + "where = { method = \"fem\" }\n")) == "");
   const std::string mode =
       "id = \"mode\"\nkind = \"constant\"\nquantity = \"stress.L2\"\npredict = \"mode\"\nratio = [0.9, 1.1]\n";
-  BOOST_TEST(says(refusal(with_gate(plate, mode)), "of which there is no prediction"));
+  BOOST_TEST(holds(refusal(with_gate(plate, mode)), "of which there is no prediction"));
   BOOST_TEST(refusal(with_gate(plate, mode + "where = { method = \"fem\" }\n")) == "");
 
-  for (const char* const scene : {bar, plate}) {
+  for (const std::string& scene : {bar, plate}) {
     Case c = parse_case(with_gate(scene, scene == bar ? step + "where = { method = \"fem\" }\n"
                                                       : mode + "where = { method = \"fem\" }\n"),
                         "t.toml");
     c.gates[1].where.method = {"other"};
     const reports::Case result = measured(c);
     BOOST_TEST((result.gates[1].verdict == Verdict::invalid));
-    BOOST_TEST(says(result.gates[1].message, "has no prediction"), result.gates[1].message);
+    BOOST_TEST(holds(result.gates[1].message, "has no prediction"), result.gates[1].message);
   }
 }
 
@@ -319,8 +280,8 @@ BOOST_AUTO_TEST_CASE(an_unknown_limit_is_not_looked_for) {
   const std::string limit =
       "id = \"limit\"\nkind = \"limit\"\nquantity = \"critical_courant\"\npredict = \"stability-limit\"\n"
       "ratio = [0.9, 1.1]\nsteps = 100\n";
-  for (const char* const scene : {bar, plate}) {
-    BOOST_TEST(says(refusal(with_gate(scene, limit)), "of which there is no prediction"),
+  for (const std::string& scene : {bar, plate}) {
+    BOOST_TEST(holds(refusal(with_gate(scene, limit)), "of which there is no prediction"),
                refusal(with_gate(scene, limit)));
     Case c = parse_case(with_gate(scene, limit + "where = { method = \"fem\" }\n"), "t.toml");
     BOOST_TEST(std::isnan(step_of(c, leaves(c)[1]).limit));
@@ -330,7 +291,7 @@ BOOST_AUTO_TEST_CASE(an_unknown_limit_is_not_looked_for) {
     const reports::Case result = measured(c);
     BOOST_TEST((result.runs.at(0).status == "completed"));
     BOOST_TEST((result.gates[1].verdict == Verdict::invalid));
-    BOOST_TEST(says(result.gates[1].message, "critical_courant"), result.gates[1].message);
+    BOOST_TEST(holds(result.gates[1].message, "critical_courant"), result.gates[1].message);
   }
 }
 
@@ -340,8 +301,8 @@ BOOST_AUTO_TEST_CASE(a_feature_that_it_refuses_is_refused) {
                                               "\"elastic\"]", "\"body-force\", \"elastic\"]"),
                                      "solution = \"bar-wave\"", "solution = \"none\"");
   const std::string why = refusal(heavy);
-  BOOST_TEST(says(why, "\"other\" together with [body_force]"), why);
-  BOOST_TEST(says(why, "FEM, MPM methods only: fem, mpm-usf, mpm-usl, mpm-musl"), why);
+  BOOST_TEST(holds(why, "\"other\" together with [body_force]"), why);
+  BOOST_TEST(holds(why, "FEM, MPM methods only: fem, mpm-usf, mpm-usl, mpm-musl"), why);
 }
 
 // What the solver of diffusion alone had lacked: numbers that are not finite end a run whatever spreads.

@@ -423,7 +423,7 @@ BOOST_AUTO_TEST_CASE(every_key_of_a_damaging_plate_is_read) {
   BOOST_TEST(plate.exact.solution == "expressions");
   BOOST_TEST((plate.exact.displacement == Pair{"x*t", "y*t"} && plate.exact.velocity == Pair{"x", "y"}));
   BOOST_TEST((plate.exact.stress == Triple{"E*t", "nu*E*t", "0"} && plate.exact.concentration == "x + y + t"));
-  BOOST_TEST(plate.exact.core == 0.05);
+  BOOST_TEST(plate.exact.core() == 0.05);
   BOOST_TEST((c.parameters == Parameters{{"P", 7e8}}));
 
   BOOST_REQUIRE_EQUAL(c.axes.size(), 1u);
@@ -472,7 +472,7 @@ BOOST_AUTO_TEST_CASE(every_key_of_a_mode_and_of_diffusion_alone_is_read) {
   BOOST_TEST((d.diffusivity == "d*(1 + x*y)" && d.rate == "x*y*t" && d.corner_rate == -0.5));
   BOOST_TEST((d.scheme == diffusion::Scheme::crank_nicolson && d.reading == diffusion::Reading::radial));
   BOOST_TEST(c.plate->initial_concentration == "1 + cos(pi*x/Lx)*cos(pi*y/Ly)");
-  BOOST_TEST((c.plate->exact.solution == "corner-source" && c.plate->exact.core == 0.1));
+  BOOST_TEST((c.plate->exact.solution == "corner-source" && c.plate->exact.core() == 0.1));
   BOOST_TEST((c.variants[0].plate.diffusion->scheme == diffusion::Scheme::backward_euler));
   BOOST_TEST(c.gates[0].over_time_step);
   BOOST_TEST((c.plate_probes[0].x == 1 && c.plate_probes[0].y == 1 && c.plate_probes[1].reads == "total"));
@@ -497,7 +497,7 @@ BOOST_AUTO_TEST_CASE(what_is_left_out_is_as_said) {
   BOOST_TEST((evolution.diffusion->clip_strain && evolution.diffusion->drift == 0));
   BOOST_TEST((evolution.diffusion->scheme == diffusion::Scheme::sub_cycled));
   BOOST_TEST((evolution.diffusion->reading == diffusion::Reading::isotropic));
-  BOOST_TEST((c.plate->exact.core == 0 && c.gates[1].shrinks));
+  BOOST_TEST((c.plate->exact.core() == 0 && c.gates[1].shrinks));
   BOOST_TEST((c.axes[0].particles == std::vector<std::vector<double>>{{0.25, 0.75}}));  // 2 × 2 in a cell
 
   const Case mode = good(elastic_mode, "start = \"moving\"\n", "");

@@ -857,7 +857,8 @@ BOOST_AUTO_TEST_CASE(a_run_that_is_asked_to_stop_stops) {
 
 BOOST_AUTO_TEST_CASE(a_run_is_described_before_it_is_run) {
   const Case c = parse_case(cracking, "t.toml");
-  const auto run = describe(c, leaves(c).back());
+  const Leaf leaf = leaves(c).back();
+  const auto run = describe(*case_of(c, leaf), leaf);
   BOOST_TEST((run.method == "mpm-musl" && run.parameters == "local" && run.particles == "0.25 0.75"));
   BOOST_TEST((run.status == "cancelled" && run.cell_size == 0.25 && run.unknowns == 2 * 4 * 24));
 }
