@@ -2,10 +2,6 @@
 // differences.
 #pragma once
 
-#include <optional>
-
-#include "hinge/diffusion/damage_evolution.hpp"
-#include "hinge/diffusion/dilatancy.hpp"
 #include "hinge/scene/plate.hpp"
 #include "hinge/scene/scene.hpp"
 
@@ -16,14 +12,13 @@ namespace diptych::fem {
 /// its own limit. For square cells at ν = 0.3 that is 0.578 h/c_d in plane strain and 0.568 in plane stress, of a
 /// single cell 0.553 and 0.547; of the interior alone it would be higher, 0.588 and 0.574 [s].
 ///
-/// Of a failure wave the limit is that of the stiffest tangent that its law has in uniaxial strain, see
-/// FailureWave::stiffening. With artificial viscosity, which lags half a step, it is what viscous_time_step leaves.
+/// Of a law that stiffens the limit is that of its stiffest tangent, see FailureWave::stiffening. With artificial
+/// viscosity, which lags half a step, it is what viscous_time_step leaves.
 double critical_time_step(const Plate&, const Cells&);
 
-/// Runs the plate. `evolution` is needed with TensileDamage, and only then; `spread` with FailureWave, and only then:
-/// it is taken as it is, so that where there is an impact its face is for the caller to name. The two sides of an
-/// impact are bonded from the start, whatever the gap. Throws std::invalid_argument for a scene that FEM cannot take.
-PlateRecord run(const Plate&, const Cells&, const std::optional<diffusion::Evolution>& evolution, const Stepping&,
-                const std::optional<diffusion::Spread>& spread = std::nullopt);
+/// Runs the plate. The two sides of an impact are bonded from the start, whatever the gap. Throws std::invalid_argument
+/// for a plate that `check` refuses or whose initial displacement bends a platen. The mesh goes with the material and
+/// has no particles: `convected` and `pic` mean nothing here.
+PlateRecord run(const Plate&, const Cells&, const Stepping&);
 
 }  // namespace diptych::fem

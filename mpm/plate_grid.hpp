@@ -9,18 +9,10 @@
 #include <vector>
 
 #include "hinge/scene/plate.hpp"
+#include "hinge/solid/arrays.hpp"
 #include "hinge/step/threads.hpp"
 
 namespace diptych::mpm {
-
-/// `count` zeros, with a little room to spare where arrays of this length that are allocated one after the other would
-/// begin a whole multiple of 64 KiB apart: all of them would fall on the same few lines of the caches.
-inline void allocate(std::vector<double>& values, std::size_t count) {
-  constexpr std::size_t cycle = 8192, near = 1024;  // in numbers
-  const std::size_t clash = (count + near) % cycle < 3 * near && count > cycle ? 4 * near : 0;
-  values.reserve(count + clash);
-  values.assign(count, 0);
-}
 
 /// A vector on every node or particle, one array a component.
 struct VectorField {
@@ -84,6 +76,10 @@ struct Grid {
     return mass.capacity() * sizeof(double) + velocity.bytes() + acceleration.bytes() + kicked.bytes();
   }
 };
+
+/// The grid of a plate. Flyer and target in front of a gap have nodes of their own, and where `roaming` particles move
+/// through it there is room on the plate's free sides. Masses are yet to be mapped.
+Grid grid_of(const Plate&, const Cells&, bool roaming, bool keeps_kicked);
 
 /// What the cells of a row give to their four corners, one number a cell: bottom left, bottom right, top left, top
 /// right. Left shares stand at the cell's number, right ones at the next, where the node's number is.
@@ -244,14 +240,13 @@ class Supports {
   /// Of the first platen along its outward normal, of a field that stands held.
   double of_platen(const VectorField& field) const {
     const Platen& p = platens_.front();
-    const double value = (p.across ? field.x : field.y)[p.first];
-    return p.side == Side::right || p.side == Side::top ? value : -value;
+    return outward(p.side) * (p.along_x ? field.x : field.y)[p.first];
   }
 
   /// Calls f(i, j) for the nodes of a side, towards larger coordinates.
   template <class F>
   void for_nodes(Side side, F&& f) const {
-    if (side == Side::left || side == Side::right) {
+    if (across(side) == 0) {
       for (std::size_t j = 0; j <= grid_.ny; ++j) f(side == Side::left ? 0 : grid_.nx, j);
     } else {
       for (std::size_t i = 0; i <= grid_.nx; ++i) f(i, side == Side::bottom ? 0 : grid_.ny);
@@ -259,36 +254,35 @@ class Supports {
   }
 
  private:
-  static constexpr std::array sides{Side::left, Side::right, Side::bottom, Side::top};
   std::size_t at(std::size_t i, std::size_t j) const { return grid_.row(j) + i; }
 
   /// A side's nodes that move as one across it: all but those at its ends that a side beside it holds or drives.
   struct Platen {
     Side side;
-    bool across;  ///< moves along x
+    bool along_x;  ///< moves along x
     std::size_t first, stride, count, i, j;
   };
 
   Platen platen_on(Side side) const {
-    const bool across = side == Side::left || side == Side::right;
+    const bool along_x = across(side) == 0;
     const auto held = [&](Side beside) {
       const auto support = plate_.edge(beside).support;
       return support == Edge::Support::fixed || support == Edge::Support::driven ? std::size_t{1} : std::size_t{0};
     };
-    const std::size_t skipped = held(across ? Side::bottom : Side::left);
-    const std::size_t count = (across ? grid_.ny : grid_.nx) + 1 - skipped - held(across ? Side::top : Side::right);
-    const std::size_t i = side == Side::right ? grid_.nx : across ? 0 : skipped;
-    const std::size_t j = side == Side::top ? grid_.ny : across ? skipped : 0;
-    return {side, across, at(i, j), across ? grid_.next_row() : 1, count, i, j};
+    const std::size_t skipped = held(along_x ? Side::bottom : Side::left);
+    const std::size_t count = (along_x ? grid_.ny : grid_.nx) + 1 - skipped - held(along_x ? Side::top : Side::right);
+    const std::size_t i = side == Side::right ? grid_.nx : along_x ? 0 : skipped;
+    const std::size_t j = side == Side::top ? grid_.ny : along_x ? skipped : 0;
+    return {side, along_x, at(i, j), along_x ? grid_.next_row() : 1, count, i, j};
   }
 
   /// A platen's nodes share their momentum or force across the side: the M-orthogonal mean, which does no work. Summed
   /// from the outside in, so that a mirrored plate adds the same numbers.
   void level_platens(VectorField& field) {
     for (const Platen& p : platens_) {
-      double* values = (p.across ? field.x : field.y).data() + p.first;
+      double* values = (p.along_x ? field.x : field.y).data() + p.first;
       const auto mass = [&](std::size_t k) {
-        return grid_.mass_of(p.across ? p.i : p.i + k, p.across ? p.j + k : p.j);
+        return grid_.mass_of(p.along_x ? p.i : p.i + k, p.along_x ? p.j + k : p.j);
       };
       double sum = 0, masses = 0;
       for (std::size_t k = 0; k < p.count / 2; ++k) {
@@ -333,10 +327,10 @@ class Supports {
     for (const Side side : sides) {  // a wall at rest has the last word at a corner
       const auto support = plate_.edge(side).support;
       if (support != Edge::Support::roller && support != Edge::Support::fixed) continue;
-      const bool across = side == Side::left || side == Side::right, all = support == Edge::Support::fixed;
+      const bool along_x = across(side) == 0, all = support == Edge::Support::fixed;
       for_nodes(side, [&](std::size_t i, std::size_t j) {
-        if (across || all) set(field.x, i, j, 0);
-        if (!across || all) set(field.y, i, j, 0);
+        if (along_x || all) set(field.x, i, j, 0);
+        if (!along_x || all) set(field.y, i, j, 0);
       });
     }
     return total;

@@ -5,8 +5,8 @@
 #include <array>
 #include <cstddef>
 
+#include "hinge/material/plane.hpp"
 #include "mpm/plate_grid.hpp"
-#include "mpm/plate_law.hpp"
 
 // The same bits on every processor: wider registers, no fused multiply-add. (ThreadSanitizer cannot start a program
 // that chooses its functions while loading, and clang chooses no templates.)
@@ -123,12 +123,12 @@ struct TensorRows {
   double *xx = nullptr, *yy = nullptr, *xy = nullptr;
 };
 
-/// What the new strains are good for: with damage the crack density comes between the two.
-enum class Do { strain, force, both };
+/// What a pass over the particles brings up to date: both at one go, but where something comes between the two.
+enum class Update { strain, force, both };
 
 /// Strain increments Δt ∇v of the particles of a row of cells, and the internal forces of their stress (eq. 19) with
 /// the artificial viscosity.
-template <std::size_t n, Do what, class LawRow, class ViscousRow>
+template <std::size_t n, Update what, class LawRow, class ViscousRow>
 DIPTYCH_WIDE void strain_row(const Arrangement& places, std::size_t cells, std::size_t stride, double dt, double hx,
                              double hy, double volume, NodeRows velocity_x, NodeRows velocity_y, TensorRows strain,
                              LawRow law, [[maybe_unused]] ViscousRow viscous, ShareRows out_x, ShareRows out_y) {
@@ -150,7 +150,7 @@ DIPTYCH_WIDE void strain_row(const Arrangement& places, std::size_t cells, std::
   double* __restrict ytr = out_y.top_right;
 #pragma GCC ivdep
   for (std::size_t i = 0; i < cells; ++i) {
-    if constexpr (what != Do::force) {
+    if constexpr (what != Update::force) {
       const double xx_low = per_x * (xl[i + 1] - xl[i]), xx_high = per_x * (xh[i + 1] - xh[i]);
       const double yx_low = per_x * (yl[i + 1] - yl[i]), yx_high = per_x * (yh[i + 1] - yh[i]);
       const double yy_left = per_y * (yh[i] - yl[i]), yy_right = per_y * (yh[i + 1] - yl[i + 1]);
@@ -167,7 +167,7 @@ DIPTYCH_WIDE void strain_row(const Arrangement& places, std::size_t cells, std::
         });
       });
     }
-    if constexpr (what != Do::strain) {
+    if constexpr (what != Update::strain) {
       std::array<double, most * most> xx, yy, xy;
       for_places<n>(count, [&](std::size_t b) DIPTYCH_INLINE {
         for_places<n>(count, [&](std::size_t a) DIPTYCH_INLINE {

@@ -1,8 +1,18 @@
+#include <stdexcept>
+
 #include "mpm/plate_body.hpp"
 
 namespace diptych::mpm {
 
-template PlateRecord run_body<Moving, Whole>(const Setup&);
-template PlateRecord run_body<Moving, Yielding>(const Setup&);
+PlateRecord run_moving(const Setup& setup) {
+  return std::visit(
+      [&]<class Solid>(const Solid& solid) -> PlateRecord {
+        if constexpr (Solid::Model::staggered)
+          throw std::logic_error("what changes in cells cannot go with particles that cross them");
+        else
+          return run_body<Moving>(setup, solid);
+      },
+      setup.plate.solid);
+}
 
 }  // namespace diptych::mpm

@@ -9,9 +9,10 @@
 #include <type_traits>
 #include <vector>
 
+#include "hinge/solid/arrays.hpp"
 #include "mpm/plate_grid.hpp"
 #include "mpm/plate_kernels.hpp"
-#include "mpm/plate_law.hpp"
+#include "mpm/plate_viscosity.hpp"
 
 namespace diptych::mpm {
 
@@ -131,11 +132,11 @@ class Standing {
   /// eqs. 11, 9 and 10, and the new velocities mapped: to be held by the supports yet.
   void kick_and_move(Bands& bands, double kick, double drift, double pic, bool from_kicked);
 
-  /// viscous: Inviscid or Damping. Damping knows the largest |D| only after all strains, so never Do::both with it.
-  template <Do what, class LawOf, class Viscous>
-  void strain_and_force(Bands& bands, const VectorField& velocity, double dt, LawOf& law, Viscous& viscous) {
+  /// viscous: Inviscid or Damping. Damping knows the largest |D| only after all strains, so never Update::both with it.
+  template <Update what, class Model, class Viscous>
+  void strain_and_force(Bands& bands, const VectorField& velocity, double dt, Model& model, Viscous& viscous) {
     constexpr bool damped = std::is_same_v<Viscous, Damping>;
-    static_assert(!damped || what != Do::both);
+    static_assert(!damped || what != Update::both);
     const auto viscous_row = [&]([[maybe_unused]] std::size_t first) {
       if constexpr (damped)
         return viscous.row(first);
@@ -150,13 +151,13 @@ class Standing {
               places_, length, stride_, dt, grid_.hx, grid_.hy, state_.volume,
               {velocity.x.data() + low, velocity.x.data() + high}, {velocity.y.data() + low, velocity.y.data() + high},
               {state_.strain.xx.data() + first, state_.strain.yy.data() + first, state_.strain.xy.data() + first},
-              law.row(j * columns_ + from, first), viscous_row(first), ShareRows(band.shares[0], node),
+              model.row(j * columns_ + from, first), viscous_row(first), ShareRows(band.shares[0], node),
               ShareRows(band.shares[1], node));
         });
       });
-      if constexpr (damped && what == Do::strain) viscous.note(j, index(0, j, 0), stride_, per_cell(), columns_);
+      if constexpr (damped && what == Update::strain) viscous.note(j, index(0, j, 0), stride_, per_cell(), columns_);
     };
-    if constexpr (what == Do::strain) {
+    if constexpr (what == Update::strain) {
       bands.for_each([&](Band& band) {
         for (std::size_t j = band.first; j < band.last; ++j) cells(j, band);
       });
@@ -242,8 +243,8 @@ class Moving {
   void map_momentum(Bands& bands);
   void kick_and_move(Bands& bands, double kick, double drift, double pic, bool from_kicked);
 
-  template <Do what, class LawOf>
-  void strain_and_force(Bands& bands, const VectorField& velocity, double dt, LawOf& law, Inviscid) {
+  template <Update what, class Model>
+  void strain_and_force(Bands& bands, const VectorField& velocity, double dt, Model& model, Inviscid) {
     bands.for_each([&](Band& band) {
       for (std::size_t j = band.first; j < band.last; ++j) {
         visit_row(j, [&](const Place& at) {
@@ -254,14 +255,14 @@ class Moving {
         });
       }
     });
-    map_force(bands, law);
+    map_force(bands, model);
   }
 
   /// eqs. 19 and 18 but for the loads, at the particles' present places.
-  template <class LawOf>
-  void map_force(Bands& bands, LawOf& law) {
+  template <class Model>
+  void map_force(Bands& bands, Model& model) {
     const double area_x = state_.volume / grid_.hx, area_y = state_.volume / grid_.hy;
-    const auto row = law.row(0, 0);
+    const auto row = model.row(0, 0);
     bands.gather(
         [&](std::size_t j, Band& band) {
           clear(band);

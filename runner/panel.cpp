@@ -51,11 +51,11 @@ Panel fem_panel() {
   p.bars.run = [](const Scene& scene, const BarMesh& mesh, const Stepping& stepping) {
     return fem::run(scene, mesh.cells, stepping);
   };
-  p.plate.limit = [](const PlateScene& scene, const PlateMesh& mesh) {
-    return fem::critical_time_step(scene.plate, mesh.cells());
+  p.plate.limit = [](const Plate& plate, const PlateMesh& mesh) {
+    return fem::critical_time_step(plate, mesh.cells());
   };
-  p.plate.run = [](const PlateScene& scene, const PlateMesh& mesh, const Stepping& stepping) {
-    return fem::run(scene.plate, mesh.cells(), scene.evolution, stepping, scene.spread);
+  p.plate.run = [](const Plate& plate, const PlateMesh& mesh, const Stepping& stepping) {
+    return fem::run(plate, mesh.cells(), stepping);
   };
   return p;
 }
@@ -71,11 +71,11 @@ Panel mpm_panel(const char* id, const char* name, mpm::Scheme scheme, BarTheory 
   p.bars.run = [=](const Scene& scene, const BarMesh& mesh, const Stepping& stepping) {
     return mpm::run(scene, mesh.cells, mesh.particles, scheme, stepping);
   };
-  p.plate.limit = [=](const PlateScene& scene, const PlateMesh& mesh) {
-    return mpm::critical_time_step(scene.plate, mesh.cells(), mesh.particles, scheme);
+  p.plate.limit = [=](const Plate& plate, const PlateMesh& mesh) {
+    return mpm::critical_time_step(plate, mesh.cells(), mesh.particles, scheme);
   };
-  p.plate.run = [=](const PlateScene& scene, const PlateMesh& mesh, const Stepping& stepping) {
-    return mpm::run(scene.plate, mesh.cells(), mesh.particles, scheme, scene.evolution, stepping, scene.spread);
+  p.plate.run = [=](const Plate& plate, const PlateMesh& mesh, const Stepping& stepping) {
+    return mpm::run(plate, mesh.cells(), mesh.particles, scheme, stepping);
   };
   return p;
 }

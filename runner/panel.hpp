@@ -11,7 +11,6 @@
 #include "analytic/discrete.hpp"
 #include "analytic/plane_discrete.hpp"
 #include "hinge/diffusion/concentration.hpp"
-#include "hinge/diffusion/damage_evolution.hpp"
 #include "hinge/diffusion/dilatancy.hpp"
 #include "hinge/scene/plate.hpp"
 #include "hinge/scene/scene.hpp"
@@ -33,13 +32,6 @@ struct PlateMesh {
   std::vector<double> particles;
 
   Cells cells() const { return {grid.nx, grid.ny}; }
-};
-
-/// A plate with what its damage needs to grow and its dilatancy to spread.
-struct PlateScene {
-  Plate plate;
-  std::optional<diffusion::Evolution> evolution;
-  std::optional<diffusion::Spread> spread;
 };
 
 /// How a panel solves one kind of scene. Both throw std::invalid_argument for a scene that the method cannot take.
@@ -73,7 +65,7 @@ struct Panel {
   std::optional<analytic::PlaneDiscretisation::Method> plate_theory = {};
 
   Solver<Scene, BarMesh, Record> bars = {};
-  Solver<PlateScene, PlateMesh, PlateRecord> plate = {};
+  Solver<Plate, PlateMesh, PlateRecord> plate = {};
   Solver<DiffusionScene, diffusion::Grid, PlateRecord> diffusion = {};
 
   bool takes(SceneKind) const;

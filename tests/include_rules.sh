@@ -14,8 +14,9 @@ only() { # only FOLDER OTHERS [EXCEPT]: files of FOLDER, but for EXCEPT, include
 }
 only hinge/material hinge/material
 only hinge/diffusion hinge/diffusion
-only hinge/scene 'hinge/(material|diffusion|scene|step)'
-only hinge/step 'hinge/(material|diffusion|scene|step)'
+only hinge/solid 'hinge/(material|diffusion|solid)'
+only hinge/scene 'hinge/(material|diffusion|solid|scene|step)'
+only hinge/step 'hinge/(material|diffusion|solid|scene|step)'
 only fem 'hinge|fem'
 only mpm 'hinge|mpm'
 only analytic analytic

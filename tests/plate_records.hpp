@@ -4,14 +4,23 @@
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+#include <optional>
+#include <variant>
 #include <vector>
 
+#include "hinge/scene/plate.hpp"
 #include "hinge/scene/scene.hpp"
 #include "tests/steps.hpp"
 
 namespace diptych {
 
 using tests::steps_of;
+
+/// Plasticity in compression of an elastic or a cracking plate.
+inline std::optional<material::Compression>& compression(Plate& plate) {
+  if (auto* cracking = std::get_if<solid::Cracking>(&plate.solid)) return cracking->compression;
+  return std::get<solid::Elastic>(plate.solid).compression;
+}
 
 /// A run that was cut off has no samples.
 template <class AnyRecord>

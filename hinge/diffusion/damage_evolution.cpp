@@ -39,8 +39,8 @@ double area_within(double radius, double x0, double x1, double y0, double y1) {
   return (y1 - y0) * (top - x0) + area_under_circle(radius, top, end) - y0 * (end - top);
 }
 
-DamageEvolution::DamageEvolution(const Evolution& evolution, const Grid& grid) : evolution_(evolution), grid_(grid) {
-  require(evolution.crack_coefficient >= 0, "the crack coefficient must be >= 0");
+DamageEvolution::DamageEvolution(const Evolution& evolution, CrackGrowth growth, const Grid& grid)
+    : evolution_(evolution), growth_(std::move(growth)), grid_(grid) {
   require(evolution.cap >= 0, "the cap must be >= 0");
   require(evolution.rate == Rate::tracked || evolution.reference_rate > 0, "the reference rate must be > 0");
   require(evolution.rate == Rate::reference || evolution.rate_floor > 0, "the rate's floor must be > 0");
@@ -131,7 +131,7 @@ void DamageEvolution::local(std::span<const double> strain, double dt) {
     // Below the critical strain a fixed rate gives less than the critical state will, which alone is shown.
     const bool later = evolution_.rate == Rate::reference && !critical_.empty() && e < evolution_.critical_strain;
     if (later || e <= 0) continue;
-    const double now = evolution_.crack_coefficient * std::pow(e, evolution_.exponent) / (rate_max * rate_max);
+    const double now = growth_(e, rate_max);
     double& held = largest_[cell];
     if (!(now <= held) && !std::isnan(held)) held = now;
     if (critical_.empty() || critical_[cell]) crack_density_[cell] = std::min(held, evolution_.cap);
@@ -144,7 +144,7 @@ double DamageEvolution::source(std::size_t k, double strain, double dt) {
   const double rate_max = rate(k, strain, dt);
   if (strain < evolution_.critical_strain || strain <= 0) return 0;
   const double acting = d.clip_strain && strain > d.rupture_strain ? d.rupture_strain : strain;
-  const double density = evolution_.crack_coefficient * std::pow(acting, evolution_.exponent) / (rate_max * rate_max);
+  const double density = growth_(acting, rate_max);
   return density / d.characteristic_time / (d.per_crack_volume ? d.crack_volume : 1);
 }
 
@@ -181,8 +181,6 @@ void DamageEvolution::diffuse(std::span<const double> strain, double dt) {
     if (evolution_.heals || !(density <= crack_density_[cell])) crack_density_[cell] = density;
   }
 }
-
-std::span<const double> DamageEvolution::crack_density() const { return crack_density_; }
 
 std::span<const double> DamageEvolution::concentration() const {
   return concentration_ ? std::as_const(*concentration_).values() : std::span<const double>{};

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -25,8 +26,11 @@ enum class Source {
   everywhere
 };
 
-/// Eqs. 25–28 with the choices that the paper leaves open. Where ε_v ≥ ε_v1 the source is
-/// Q = crack_coefficient · ε_v^m / (ε̇² T_d), see Evolution.
+/// C_d of eq. 23a, of ε_v > 0 and ε̇_max > 0 [1/s]: how fast cracks come is the material's to say.
+using CrackGrowth = std::function<double(double volumetric_strain, double strain_rate)>;
+
+/// Eqs. 25–28 with the choices that the paper leaves open. Where ε_v ≥ ε_v1 the source is Q = C_d(ε_v, ε̇)/T_d, C_d that
+/// of CrackGrowth.
 struct Diffusion {
   double characteristic_time = 0.01;  ///< T_d [s]
   double mobility = 500;              ///< λ1 [m²/s]
@@ -47,8 +51,6 @@ struct Diffusion {
 };
 
 struct Evolution {
-  double crack_coefficient = 0;    ///< (5k/2)(K_IC/(ρ c))² of eq. 23a [1/s²]
-  double exponent = 7;             ///< m
   double critical_strain = 0.002;  ///< ε_v1: the source acts, and damage shows in the stress, only where it was reached
   bool damage_everywhere = false;  ///< damage shows in the stress without regard to the critical state
   double cap = 9.0 / 16;           ///< largest C_d that is handed out: D = 1; infinite: none
@@ -71,14 +73,16 @@ class DamageEvolution {
  public:
   /// Throws std::invalid_argument for a characteristic time, crack volume, rupture strain or rate that is not > 0, or a
   /// mobility, radius or cap that is not ≥ 0.
-  DamageEvolution(const Evolution&, const Grid&);
+  DamageEvolution(const Evolution&, CrackGrowth, const Grid&);
 
   /// From tⁿ⁻¹ to tⁿ = tⁿ⁻¹ + dt: mean volumetric strains of the cells at tⁿ in. The first call has the strains at the
   /// start as those before it were zero. Those at tⁿ give Q and d of the whole step. Throws what Concentration::step
   /// does.
   void advance(std::span<const double> volumetric_strain, double dt);
 
-  std::span<const double> crack_density() const;  ///< C_d that each cell's stiffness sees, ≤ cap
+  std::span<const double> crack_density() const {
+    return crack_density_;
+  }                                               ///< C_d that each cell's stiffness sees, ≤ cap
   std::span<const double> concentration() const;  ///< C of each node; empty without diffusion
   double total() const;                           ///< ∫C dA
   double fed() const;                             ///< what the source has given since the start: ∫∫Q dA dt
@@ -101,6 +105,7 @@ class DamageEvolution {
   void diffuse(std::span<const double> strain, double dt);
 
   Evolution evolution_;
+  CrackGrowth growth_;
   Grid grid_;
   std::vector<double> crack_density_;                 // handed out
   std::vector<unsigned char> critical_;               // has been reached; empty with damage_everywhere

@@ -110,7 +110,6 @@ void Dilatancy::advance(std::span<const double> ceiling, double dt) {
   find_of_cells();
 }
 
-std::span<const double> Dilatancy::of_cells() const { return of_cells_; }
 std::span<const double> Dilatancy::of_nodes() const { return field_.values(); }
 double Dilatancy::total() const { return field_.total(); }
 double Dilatancy::fed() const { return raised_ + field_.fed(); }

@@ -45,7 +45,7 @@ class Dilatancy {
   /// NaN. Throws std::invalid_argument for a ceiling that is negative, and what Concentration::step does.
   void advance(std::span<const double> ceiling, double dt);
 
-  std::span<const double> of_cells() const;  ///< mean of each cell's four nodes
+  std::span<const double> of_cells() const { return of_cells_; }  ///< mean of each cell's four nodes
   std::span<const double> of_nodes() const;
   double total() const;       ///< ∫V_d dA [m²]
   double fed() const;         ///< what the start and the face have given [m²]: total(), by the fluxes

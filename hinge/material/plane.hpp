@@ -58,6 +58,8 @@ struct PlaneElastic {
   double uniaxial_wave_speed() const { return std::sqrt(youngs_modulus / density); }
   /// tr ε of the three-dimensional strain, of (ε_xx + ε_yy).
   double trace_factor() const { return plane == Plane::strain ? 1 : (1 - 2 * poissons_ratio) / (1 - poissons_ratio); }
+  /// ε_v of a strain in the plane, the mean normal strain.
+  double volumetric(const Tensor& strain) const { return (strain.xx + strain.yy) * trace_factor() / 3; }
 };
 
 }  // namespace diptych::material

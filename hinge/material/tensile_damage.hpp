@@ -1,9 +1,6 @@
 // Tensile damage of a brittle solid, eqs. 23a–d (Taylor, Chen & Kuszmaul 1986 in the paper's form).
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-
 #include "hinge/material/plane.hpp"
 
 namespace diptych::material {
@@ -26,6 +23,14 @@ struct CrackedStiffness {
   const Stiffness& at(const Tensor& strain) const { return strain.xx + strain.yy >= 0 ? open : closed; }
 };
 
+/// C_d of eq. 23a, of ε_v > 0 and ε̇_max > 0 [1/s].
+struct CrackGrowth {
+  double coefficient = 0;  ///< (5k/2) (K_IC/(ρ c))² [1/s²]
+  double exponent = 7;     ///< m
+
+  double operator()(double volumetric_strain, double strain_rate) const;
+};
+
 /// Neither modulus ever rises with C_d, so that damage takes energy and never gives any.
 struct TensileDamage {
   PlaneElastic elastic;
@@ -44,44 +49,18 @@ struct TensileDamage {
   double volumetric(const Tensor& strain) const {
     return (strain.xx + strain.yy) * elastic.trace_factor() / (trace ? 1 : 3);
   }
-  /// (5k/2) (K_IC/(ρ c))² of eq. 23a [1/s²]: C_d = crack_coefficient · ε_v^m / ε̇².
-  double crack_coefficient() const {
-    const double ratio = fracture_toughness / (elastic.density * elastic.uniaxial_wave_speed());
-    return 2.5 * flaw_density * ratio * ratio;
-  }
-  /// C_d, eq. 23a; ε̇_max in 1/s, > 0.
-  double crack_density(double volumetric_strain, double strain_rate) const {
-    if (volumetric_strain <= 0) return 0;
-    return crack_coefficient() * std::pow(volumetric_strain, exponent) / (strain_rate * strain_rate);
-  }
+  double crack_coefficient() const;  ///< (5k/2) (K_IC/(ρ c))² of eq. 23a [1/s²]
+  CrackGrowth crack_growth() const { return {crack_coefficient(), exponent}; }
+  /// C_d, eq. 23a, 0 where ε_v ≤ 0; ε̇_max in 1/s, > 0.
+  double crack_density(double volumetric_strain, double strain_rate) const;
   /// ν̄, eq. 23d, held at zero beyond α C_d = 1: D = 1 comes before it, and below ν̄ = −1 eq. 23b would heal the solid.
-  double damaged_poissons_ratio(double crack_density) const {
-    return elastic.poissons_ratio * std::max(1 - alpha() * crack_density, 0.0);
-  }
-  /// D, eq. 23b, at most 1.
-  double damage(double crack_density) const {
-    const double nu = damaged_poissons_ratio(crack_density);
-    return std::min(16 * (1 - nu * nu) / (9 * (1 - 2 * nu)) * crack_density, 1.0);  // this order keeps NaN
-  }
-  /// K̄, eq. 23c [Pa].
-  double damaged_bulk_modulus(double crack_density) const {
-    return std::max(1 - damage(crack_density), residual_stiffness) * elastic.bulk_modulus();
-  }
+  double damaged_poissons_ratio(double crack_density) const;
+  double damage(double crack_density) const;                ///< D, eq. 23b, at most 1
+  double damaged_bulk_modulus(double crack_density) const;  ///< K̄, eq. 23c [Pa]
   /// Ḡ of K̄ and ν̄ (eqs. 23c and 23d) [Pa], at most the whole solid's: where ν > 0.395 a little damage would raise it.
-  double damaged_shear_modulus(double crack_density) const {
-    const double nu = damaged_poissons_ratio(crack_density), whole = elastic.shear_modulus();
-    const double shear = 1.5 * (1 - damage(crack_density)) * elastic.bulk_modulus() * (1 - 2 * nu) / (1 + nu);
-    return std::min(std::max(shear, residual_stiffness * whole), whole);
-  }
+  double damaged_shear_modulus(double crack_density) const;
   /// At C_d = 0 to the bit the whole solid's.
-  CrackedStiffness damaged_stiffness(double crack_density) const {
-    const Stiffness whole = elastic.stiffness();
-    if (crack_density == 0) return {whole, whole};
-    const double shear = damaged_shear_modulus(crack_density);
-    const auto with_bulk = [&](double bulk) { return stiffness_of_moduli(bulk, shear, elastic.plane); };
-    return {with_bulk(damaged_bulk_modulus(crack_density)),
-            closure == Closure::whole ? whole : with_bulk(elastic.bulk_modulus())};
-  }
+  CrackedStiffness damaged_stiffness(double crack_density) const;
 };
 
 }  // namespace diptych::material

@@ -8,14 +8,11 @@
 #include <functional>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
-#include "hinge/material/compression.hpp"
-#include "hinge/material/failure_wave.hpp"
 #include "hinge/material/plane.hpp"
-#include "hinge/material/tensile_damage.hpp"
 #include "hinge/material/viscosity.hpp"
+#include "hinge/solid/plate_solid.hpp"
 #include "hinge/step/record.hpp"
 
 namespace diptych {
@@ -23,6 +20,11 @@ namespace diptych {
 using Vector = std::array<double, 2>;  ///< x and y
 
 enum class Side { left, right, bottom, top };
+inline constexpr std::array sides{Side::left, Side::right, Side::bottom, Side::top};
+
+/// The component of a vector across a side, 0 or 1, and the sign of the outward normal.
+constexpr std::size_t across(Side side) { return side == Side::left || side == Side::right ? 0 : 1; }
+constexpr double outward(Side side) { return side == Side::left || side == Side::bottom ? -1 : 1; }
 
 /// One side of a plate. An empty function is a feature that is off.
 struct Edge {
@@ -40,8 +42,6 @@ struct Edge {
   std::function<Vector(double x, double y, double t)> velocity;  ///< of a driven side [m/s]
 };
 
-using PlateMaterial = std::variant<material::PlaneElastic, material::TensileDamage, material::FailureWave>;
-
 /// A flyer strikes the rest of the plate. Left of x = face everything moves to the right at the start, and what is
 /// right of it rests.
 struct Impact {
@@ -57,8 +57,8 @@ struct Gauge {
   double x = 0, y = 0;  ///< [m]
 };
 
-/// What a gauge saw: stress and dilatancy, the means over cells, on the line between the middles of the two cells
-/// beside it in its row. The stress is the material's, without the artificial viscosity.
+/// What a gauge saw: stress and dilatancy, the means over cells, read as hinge/scene/gauges.hpp says. The stress is the
+/// material's, without the artificial viscosity.
 struct GaugeRecord {
   std::vector<double> time;       ///< of the stress [s]
   std::vector<double> xx, yy;     ///< [Pa]
@@ -68,8 +68,7 @@ struct GaugeRecord {
 /// 0 ≤ x ≤ width, 0 ≤ y ≤ height, of unit thickness, small strain.
 struct Plate {
   double width = 0, height = 0;  ///< L_x, L_y [m]
-  PlateMaterial material;
-  std::optional<material::Compression> compression;                ///< plane strain only
+  PlateSolid solid;
   std::array<Edge, 4> edges;                                       ///< by Side
   std::function<Vector(double x, double y, double t)> body_force;  ///< specific, b of eq. 2 [m/s²]
   std::function<Vector(double x, double y)> initial_velocity;      ///< [m/s]
@@ -90,13 +89,8 @@ struct Cells {
   int x = 1, y = 1;
 };
 
-/// The whole solid of a material.
-inline const material::PlaneElastic& elastic(const PlateMaterial& material) {
-  if (const auto* damage = std::get_if<material::TensileDamage>(&material)) return damage->elastic;
-  if (const auto* failure = std::get_if<material::FailureWave>(&material)) return failure->elastic;
-  return std::get<material::PlaneElastic>(material);
-}
-inline const material::PlaneElastic& elastic(const Plate& plate) { return elastic(plate.material); }
+/// The whole solid.
+inline const material::PlaneElastic& elastic(const Plate& plate) { return elastic(plate.solid); }
 
 /// A field at points of a plate, at its own time level.
 struct PointField {
@@ -116,6 +110,12 @@ struct PlateSnapshot {
   std::vector<material::Tensor> strain;   ///< with damage: of each cell, the mean over its triangles or particles
   std::vector<double> concentration;      ///< C of each cell node, row by row; empty without diffusion [1/m³]
   std::vector<double> dilatancy;          ///< V_d of each cell; empty without a failure wave; of nodes: `concentration`
+
+  void take(const solid::Fields& fields) {
+    crack_density.assign(fields.crack_density.begin(), fields.crack_density.end());
+    dilatancy.assign(fields.dilatancy.begin(), fields.dilatancy.end());
+    concentration.assign(fields.concentration.begin(), fields.concentration.end());
+  }
 };
 
 /// True if every value is finite.

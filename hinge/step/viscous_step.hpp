@@ -54,7 +54,7 @@ double viscous_time_step(const PlaneElastic& solid, double density_times_viscosi
   return high * (1 - tolerance);
 }
 
-/// Largest time step of a plate whose cells have this area [m²], with what a failure wave stiffens and viscosity
+/// Largest time step of a plate whose cells have this area [m²], with what its law stiffens and viscosity
 /// leaves. `limit` as above. ν = c √(h_x h_y) times the viscosity's strength.
 template <class Limit>
 double plate_time_step(const Plate& plate, double cell_area, Limit limit) {
@@ -64,7 +64,7 @@ double plate_time_step(const Plate& plate, double cell_area, Limit limit) {
     const double speed = solid.pressure_wave_speed();
     density_times_viscosity = solid.density * speed * std::sqrt(cell_area) * plate.viscosity->strength(speed, 0);
   }
-  if (const auto* failure = std::get_if<FailureWave>(&plate.material)) solid.youngs_modulus *= failure->stiffening();
+  solid.youngs_modulus *= std::visit([](const auto& s) { return s.stiffening(); }, plate.solid);
   return viscous_time_step(solid, density_times_viscosity, limit);
 }
 

@@ -377,7 +377,7 @@ void show_runs(const Case& c) {
 void show_plate(const Case& c) {
   fmt::print("{}: {}\n  file       {}\n  claim      {}\n  why        {}\n  plate      {}\n", c.id, c.title,
              c.path.string(), c.claim, c.why, words_of(*c.plate));
-  if (c.plate->material) {
+  if (c.plate->solid) {
     fmt::print("  supports  ");
     for (std::size_t side = 0; side < 4; ++side)
       fmt::print(" {} {}{}", side_names[side], support_names[static_cast<std::size_t>(c.plate->supports[side])],

@@ -129,25 +129,25 @@ ImpactTheory impact_theory(const PlateSpec& plate, double from_face) {
   const analytic::PlateImpact exact = solution_of(plate);
   const double x = plate.flyer->thickness + from_face;
   ImpactTheory theory{-exact.plateau(), exact.lateral_ratio(), exact.arrival(x), exact.release(x), nothing, nothing};
-  const auto* failure = std::get_if<material::FailureWave>(&*plate.material);
-  if (!failure || !(failure->most_converted > 0)) return theory;
-  const material::PlaneElastic& solid = failure->elastic;
+  const solid::Failing* failure = plate.failing();
+  if (!failure || !(failure->law.most_converted > 0)) return theory;
+  const material::PlaneElastic& solid = failure->law.elastic;
   const double strain = theory.plateau / solid.stiffness().normal;
   // What stops below the threshold never fails.
-  if (!(2 * solid.stiffness().shear * strain > failure->threshold)) return theory;
+  if (!(2 * solid.stiffness().shear * strain > failure->law.threshold)) return theory;
   const analytic::UniaxialFailure point(solid.bulk_modulus(), solid.stiffness().shear);
   const double elastic = theory.lateral_ratio * theory.plateau;
-  theory.failed_lateral = elastic * point.lateral(failure->most_converted);
-  if (!(plate.spread->diffusivity > 0)) return theory;
+  theory.failed_lateral = elastic * point.lateral(failure->law.most_converted);
+  if (!(failure->spread.diffusivity > 0)) return theory;
   // The part of V_d,max at which the lateral stress is half-way, by halving: it rises with V_d.
   const double half_way = (elastic + theory.failed_lateral) / 2;
-  double low = 0, high = failure->most_converted;
+  double low = 0, high = failure->law.most_converted;
   while (high - low > 1e-14 * high) {
     const double f = (low + high) / 2;
     (elastic * point.lateral(f) < half_way ? low : high) = f;
   }
-  const double level = point.dilatancy(low) / point.dilatancy(failure->most_converted);
-  theory.failure = analytic::DiffusionFront({plate.spread->diffusivity, profile_of(plate.spread->profile)})
+  const double level = point.dilatancy(low) / point.dilatancy(failure->law.most_converted);
+  theory.failure = analytic::DiffusionFront({failure->spread.diffusivity, profile_of(failure->spread.profile)})
                        .arrival(from_face, level);
   return theory;
 }
@@ -158,10 +158,10 @@ void measure_gauges(const Case& c, const Leaf& leaf, const diffusion::Grid& grid
   if (!plate.flyer) return;
   if (plate.flyer->gap > 0 && panel(leaf.method).grid_contact)
     run.measures["impact.left-over"] = record.left_over / run.cell_size;
-  if (plate.spread) measure_ahead(c, grid, record, run);
+  if (plate.failing()) measure_ahead(c, grid, record, run);
   using Support = Edge::Support;
   const std::array strip{Support::free, Support::free, Support::roller, Support::roller};
-  const bool by_waves = std::holds_alternative<material::PlaneElastic>(*plate.material) && !plate.compression &&
+  const bool by_waves = std::holds_alternative<solid::Elastic>(*plate.solid) && !compression_of(*plate.solid) &&
                         !plate.viscosity && plate.pic == 0 && plate.loads.empty() && plate.body_force[0].empty() &&
                         plate.supports == strip && symmetric(leaf.particles);
   std::optional<analytic::ImpactLattice> lattice;
@@ -211,7 +211,7 @@ void measure_gauges(const Case& c, const Leaf& leaf, const diffusion::Grid& grid
     predict("plateau", predicted.plateau);
     predict("release", predicted.release);
   }
-  if (plate.spread) measure_failure(c, run);
+  if (plate.failing()) measure_failure(c, run);
 }
 
 }  // namespace diptych::runner

@@ -191,8 +191,8 @@ std::string distance_from_settled(const Case& c, const FigureSpec& spec, const s
 
 reports::Figure rupture_figure(const Case& c, const FigureSpec& spec, const std::vector<reports::Run>& runs) {
   const double time = (spec.times.empty() ? c.times : spec.times).back(), ruptured = 0.9;
-  const auto& law = std::get<material::TensileDamage>(*c.plate->material);
-  const double cap = c.plate->evolution->cap, mega = 1e6;
+  const material::TensileDamage& law = c.plate->cracking()->law;
+  const double cap = c.plate->cracking()->evolution.cap, mega = 1e6;
   reports::Figure figure;
   figure.id = spec.id;
   figure.title = title_of(c, spec);

@@ -48,7 +48,8 @@ void widen(reports::Figure& figure, const reports::Curve& curve) {
 
 std::vector<std::string> plate_notes(const Case& c, const FigureSpec& spec) {
   std::vector<std::string> notes{words_of(*c.plate)};
-  if (const auto& evolution = c.plate->evolution; evolution && evolution->diffusion) {
+  if (const auto* cracking = c.plate->cracking(); cracking && cracking->evolution.diffusion) {
+    const diffusion::Evolution* evolution = &cracking->evolution;
     const diffusion::Diffusion& d = *evolution->diffusion;
     notes.push_back(
         fmt::format("Diffusion read as {}; λ1 = {:g} m²/s, d at least {:g} λ1, λ2 = {:g}, T_d = {:g} s, ε_v1 = {:g}, "

@@ -34,13 +34,13 @@ std::string viscosity_words(const PlateSpec& plate) {
 }
 
 std::string failure_words(const PlateSpec& plate) {
-  const auto* failure = std::get_if<material::FailureWave>(&*plate.material);
+  const auto* failure = plate.failing();
   if (!failure) return "elastic";
-  const char* profile = plate.spread->profile == diffusion::Profile::falling    ? "d0 (1 − V_d/V_d,max)"
-                        : plate.spread->profile == diffusion::Profile::constant ? "d0"
-                                                                                : "d0 V_d/V_d,max";
-  return fmt::format("d = {}, d0 = {:g} m²/s, f_max = {:g}, threshold {:g} GPa", profile, plate.spread->diffusivity,
-                     failure->most_converted, failure->threshold / 1e9);
+  const char* profile = failure->spread.profile == diffusion::Profile::falling    ? "d0 (1 − V_d/V_d,max)"
+                        : failure->spread.profile == diffusion::Profile::constant ? "d0"
+                                                                                  : "d0 V_d/V_d,max";
+  return fmt::format("d = {}, d0 = {:g} m²/s, f_max = {:g}, threshold {:g} GPa", profile, failure->spread.diffusivity,
+                     failure->law.most_converted, failure->law.threshold / 1e9);
 }
 
 reports::Curve in_figure_units(const std::vector<double>& time, const std::vector<double>& stress) {

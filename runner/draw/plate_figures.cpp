@@ -144,10 +144,10 @@ reports::ProblemFigure problem_figure(const Case& c, const FigureSpec& spec) {
     drawn.load = "p = " + load_words(load);
     drawn.outward = !load.traction.starts_with("-");
   }
-  if (const auto& evolution = c.plate->evolution;
-      evolution && evolution->diffusion && evolution->diffusion->source == diffusion::Source::zone) {
-    figure.weak_radius = evolution->diffusion->radius;
-    figure.weak_label = fmt::format("weak zone, r = {:g} m", evolution->diffusion->radius);
+  if (const auto* cracking = c.plate->cracking();
+      cracking && cracking->evolution.diffusion && cracking->evolution.diffusion->source == diffusion::Source::zone) {
+    figure.weak_radius = cracking->evolution.diffusion->radius;
+    figure.weak_label = fmt::format("weak zone, r = {:g} m", cracking->evolution.diffusion->radius);
   }
   return figure;
 }

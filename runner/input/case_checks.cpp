@@ -522,7 +522,7 @@ void check_plate_gate(Table& t, const GateSpec& gate, const Case& c) {
   const std::string field = gate.quantity.substr(0, gate.quantity.find('.'));
   const PlateExact& e = c.plate->exact;
   if (contains(plate_fields, field) && !contains(plate_invariants, gate.quantity)) {
-    const bool solid = c.plate->material.has_value();
+    const bool solid = c.plate->solid.has_value();
     const bool given = e.solution.empty()            ? true
                        : e.solution == "none"        ? false
                        : e.solution == "expressions" ? !(field == "stress"         ? e.stress[0]
@@ -549,10 +549,11 @@ void check_plate_gate(Table& t, const GateSpec& gate, const Case& c) {
       place.refuse(words(gate.quantity) + " without " + what, "with it");
   };
   const auto& supports = c.plate->supports;
-  const bool damage = c.plate->evolution.has_value();
-  const bool spreads = (damage && c.plate->evolution->diffusion) || c.plate->spread;
+  const auto& solid = c.plate->solid;
+  const bool damage = c.plate->cracking(), changes = solid && changes_in_cells(*solid);
+  const bool spreads = solid && diffuses(*solid);
   needs({"contour.distance"}, damage, "damage");
-  needs({"bits.undamaged"}, damage || c.plate->spread, "damage");
+  needs({"bits.undamaged"}, changes, "damage");
   needs({"dilatancy.ahead", "impact.left-over"}, c.plate->flyer.has_value(), "a flyer");
   needs({"cross.forward-euler"}, spreads, "damage that diffuses");
   needs({"concentration.balance", "concentration.least"}, spreads || c.plate->diffusion, "diffusion");
@@ -560,7 +561,7 @@ void check_plate_gate(Table& t, const GateSpec& gate, const Case& c) {
         "a platen");
   needs({"area.error", "bits.repeat", "bits.threads", "bits.mirror", "bits.power-of-two", "energy.drift", "energy.lost",
          "energy.closure", "energy.given-back", "energy.excess", "momentum.drift", "critical_courant"},
-        c.plate->material.has_value(), "a material");
+        solid.has_value(), "a material");
   if (gate.kind == "agreement" && !c.axes.empty()) check_agreement(t, gate, c);
   const bool of_ledger = gate.quantity.starts_with("energy.") || gate.quantity.starts_with("momentum.");
   if (of_ledger && !c.ledger)
@@ -569,7 +570,7 @@ void check_plate_gate(Table& t, const GateSpec& gate, const Case& c) {
     place.refuse(words(gate.quantity) + " of a flyer, which comes from the left", "without [flyer]");
   if (gate.quantity == "bits.mirror" && c.plate->face)
     place.refuse(words(gate.quantity) + " of an impact face, which stays where it is", "without diffusion.face");
-  if (gate.quantity == "bits.power-of-two" && (c.plate->evolution || c.plate->spread))
+  if (gate.quantity == "bits.power-of-two" && (c.plate->solid && changes_in_cells(*c.plate->solid)))
     place.refuse(words(gate.quantity) + " of a plate with damage", "of elastic plates: eq. 23a is not free of units");
   if (gate.kind == "order") check_order(t, gate, c);
 }

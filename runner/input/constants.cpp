@@ -10,7 +10,7 @@ std::map<std::string, double> plate_constants(const Case& c) {
   constants["Lx"] = c.plate->width;
   constants["Ly"] = c.plate->height;
   constants["pi"] = std::numbers::pi;
-  if (!c.plate->material) return constants;
+  if (!c.plate->solid) return constants;
   const material::PlaneElastic& elastic = elastic_of(*c.plate);
   constants["E"] = elastic.youngs_modulus;
   constants["nu"] = elastic.poissons_ratio;

@@ -33,7 +33,7 @@ std::vector<Parameters> combinations(const std::map<std::string, std::vector<dou
 }  // namespace
 
 SceneKind kind_of(const Case& c) {
-  return !c.plate ? SceneKind::bars : c.plate->material ? SceneKind::plate : SceneKind::diffusion;
+  return !c.plate ? SceneKind::bars : c.plate->solid ? SceneKind::plate : SceneKind::diffusion;
 }
 
 std::vector<Leaf> leaves(const Case& c) {

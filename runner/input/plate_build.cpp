@@ -9,6 +9,7 @@
 #include "runner/input/constants.hpp"
 #include "runner/input/expression.hpp"
 #include "runner/input/histories.hpp"
+#include "runner/input/plate_solids.hpp"
 
 namespace diptych::runner {
 namespace {
@@ -103,10 +104,11 @@ diffusion::Grid grid_of(const PlateSpec& plate, int cells) {
   return {n.x, n.y, plate.width / n.x, plate.height / n.y};
 }
 
-std::optional<diffusion::Spread> spread_of(const Case& c, int cells) {
+PlateSolid solid_of(const Case& c, int cells) {
   const PlateSpec& plate = *c.plate;
-  if (!plate.spread) return {};
-  diffusion::Spread spread = *plate.spread;
+  if (!plate.failing()) return *plate.solid;
+  solid::Failing failing = *plate.failing();
+  diffusion::Spread& spread = failing.spread;
   const auto face = plate.flyer ? std::optional(plate.flyer->thickness) : plate.face;
   if (face) spread.face = static_cast<int>(std::lround(*face * cells / plate.width));
   if (const auto f = compiled(plate.initial_concentration, {"x", "y"}, c)) {
@@ -114,7 +116,7 @@ std::optional<diffusion::Spread> spread_of(const Case& c, int cells) {
     for (int j = 0; j <= grid.ny; ++j)
       for (int i = 0; i <= grid.nx; ++i) spread.start.push_back((*f)(i * grid.hx, j * grid.hy));
   }
-  return spread;
+  return failing;
 }
 
 Plate make_plate(const Case& c, int cells) {
@@ -122,8 +124,7 @@ Plate make_plate(const Case& c, int cells) {
   Plate plate;
   plate.width = spec.width;
   plate.height = spec.height;
-  plate.material = *spec.material;
-  plate.compression = spec.compression;
+  plate.solid = solid_of(c, cells);
   plate.convected = c.convected;
   plate.pic = spec.pic;
   plate.viscosity = spec.viscosity;
@@ -183,7 +184,7 @@ analytic::PlaneSetting plane_setting(const PlateSpec& plate) {
   setting.height = plate.height;
   for (std::size_t side = 0; side < 4; ++side)
     setting.supports[side] = support_names[static_cast<std::size_t>(plate.supports[side])];
-  setting.elastic = plate.material && std::holds_alternative<material::PlaneElastic>(*plate.material);
+  setting.elastic = plate.solid && std::holds_alternative<solid::Elastic>(*plate.solid);
   if (plate.flyer) setting.strike = {plate.flyer->thickness, plate.flyer->velocity};
   if (plate.diffusion) setting.corner_rate = plate.diffusion->corner_rate;
   setting.parameters = plate.exact.parameters;
@@ -202,7 +203,7 @@ std::unique_ptr<analytic::PlaneSolution> make_plane_exact(const Case& c) {
   const analytic::PlaneSolutionRow* row = plane_solution_of(plate);
   if (!row) return nullptr;
   analytic::PlaneSetting setting = plane_setting(plate);
-  if (plate.material) setting.medium = medium_of(plate);
+  if (plate.solid) setting.medium = medium_of(plate);
   if (const auto& diffusion = plate.diffusion) {
     setting.diffusivity = diffusion->spread ? diffusion->spread->diffusivity : diffusivity_at(c, 0, 0);
     if (diffusion->spread) setting.profile = profile_of(diffusion->spread->profile);
@@ -261,7 +262,7 @@ std::string words_of(const PlateSpec& plate) {
   std::string text = plate.rows > 0
                          ? fmt::format("{:g} m, {} row{} of cells", plate.width, plate.rows, plate.rows > 1 ? "s" : "")
                          : fmt::format("{:g} × {:g} m", plate.width, plate.height);
-  if (!plate.material) return text;
+  if (!plate.solid) return text;
   const material::PlaneElastic& e = elastic_of(plate);
   return text + fmt::format(", E = {}, ν = {:g}, ρ = {:g} kg/m³, plane {}", scaled_words(e.youngs_modulus, "Pa"),
                             e.poissons_ratio, e.density, e.plane == material::Plane::stress ? "stress" : "strain");
@@ -270,19 +271,15 @@ std::string words_of(const PlateSpec& plate) {
 std::map<std::string, std::string> plate_features(const Case& c) {
   std::map<std::string, std::string> used;
   const PlateSpec& plate = *c.plate;
-  if (!plate.material) {
+  if (!plate.solid) {
     used["diffusion"] = "[diffusion]";
     return used;
   }
-  if (plate.spread) {
-    used["failure-wave"] = "material.model = \"failure-wave\"";
-    used["diffusion"] = "[diffusion]";
-  } else if (plate.evolution)
-    used["damage"] = "material.model = \"tensile-damage\"";
-  else
-    used["elastic"] = "material.model = \"elastic\"";
-  if (plate.evolution && plate.evolution->diffusion) used["diffusion"] = "[diffusion]";
-  if (plate.compression) used["compression-plasticity"] = "material.compression";
+  const std::string feature = feature_of(*plate.solid);
+  for (const PlateModel& model : plate_models())
+    if (model.feature == feature) used[feature] = "material.model = \"" + model.name + "\"";
+  if (diffuses(*plate.solid)) used["diffusion"] = "[diffusion]";
+  if (compression_of(*plate.solid)) used["compression-plasticity"] = "material.compression";
   for (const auto support : plate.supports)
     if (support == Edge::Support::platen) used["platen"] = "a platen in [supports]";
   if (!plate.body_force[0].empty()) used["body-force"] = "[body_force]";

@@ -24,8 +24,8 @@ namespace diptych::runner {
 Cells cells_of(const PlateSpec&, int cells);
 diffusion::Grid grid_of(const PlateSpec&, int cells);
 
-/// How dilatancy spreads in a run with a failure wave: the impact face is a column of nodes, V_d at the start theirs.
-std::optional<diffusion::Spread> spread_of(const Case&, int cells);
+/// The solid on so many cells. Of a failure wave the impact face is a column of nodes, and V_d at the start theirs.
+PlateSolid solid_of(const Case&, int cells);
 
 /// The scene of one run on so many cells. Holds expressions of its own: make one for each thread.
 Plate make_plate(const Case&, int cells);

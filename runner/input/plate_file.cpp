@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "analytic/plane_solutions.hpp"
 #include "runner/input/case_checks.hpp"
 #include "runner/input/case_tables.hpp"
 #include "runner/input/plate_build.hpp"
+#include "runner/input/plate_solids.hpp"
 #include "runner/input/toml_table.hpp"
 
 namespace diptych::runner {
@@ -19,26 +19,6 @@ template <class Value>
 Value in_order(const std::string& name, const Names& names) {
   const auto place = std::find(names.begin(), names.end(), name);
   return place == names.end() ? Value{} : static_cast<Value>(place - names.begin());
-}
-
-/// The value that a name of the list stands for, in the list's order.
-template <class Value>
-Value named(Table& t, const std::string& key, const std::vector<std::pair<std::string, Value>>& all, Value usual) {
-  Names names;
-  for (const auto& one : all) names.push_back(one.first);
-  const std::string name = t.get(key, one_of(names));
-  for (const auto& [other, value] : all)
-    if (other == name) return value;
-  return usual;
-}
-
-Rule<double> below(double bound, const Rule<double>& rule, const std::string& allowed) {
-  return {[=](const Place& place) -> std::optional<double> {
-            const auto value = rule.read(place);
-            if (value && *value >= bound) return place.refuse_value(allowed);
-            return value;
-          },
-          rule.missing};
 }
 
 double seconds(Table& t, const std::string& key, const Rule<double>& number, bool needed) {
@@ -87,148 +67,6 @@ void read_shape(Table& t, Case& c) {
   }
   plate.height = t.need("height", positive());
   plate.cell_aspect = t.get("cell_aspect", positive(), plate.cell_aspect);
-}
-
-void read_plate_material(Table& t, Case& c) {
-  PlateSpec& plate = *c.plate;
-  const std::string model = t.need("model", one_of({"elastic", "tensile-damage", "failure-wave"}));
-  material::PlaneElastic elastic;
-  elastic.youngs_modulus = t.need("E", positive());
-  elastic.poissons_ratio = t.must("nu", below(0.5, any_number(), "-1 < nu < 0.5")).value_or(0);
-  if (elastic.poissons_ratio <= -1) t.place("nu").refuse(words(elastic.poissons_ratio), "-1 < nu < 0.5");
-  elastic.density = t.need("rho", positive());
-  elastic.plane =
-      t.need("plane", one_of({"strain", "stress"})) == "stress" ? material::Plane::stress : material::Plane::strain;
-  t.maybe_table("compression", [&](Table& p) {
-    plate.compression = material::Compression{p.need("strength", not_negative()), p.need("slope", not_negative())};
-    if (elastic.plane == material::Plane::stress)
-      p.say("found in plane stress, where the plastic flow across the plane is not known; allowed: plane = \"strain\"");
-  });
-  const auto of_damage = [&](const char* key) { return t.applies(key, "model", model, {"tensile-damage"}); };
-  material::TensileDamage damage;
-  damage.elastic = elastic;
-  if (of_damage("K_IC")) damage.fracture_toughness = t.need("K_IC", positive());
-  if (of_damage("k")) damage.flaw_density = t.need("k", positive());
-  if (of_damage("m")) damage.exponent = t.need("m", positive());
-  if (of_damage("beta")) damage.beta = t.get("beta", not_negative(), damage.beta);
-  if (of_damage("residual_stiffness"))
-    damage.residual_stiffness = t.get("residual_stiffness", positive(), damage.residual_stiffness);
-  if (of_damage("closure"))
-    damage.closure = t.get("closure", one_of({"volumetric", "whole"})) == "whole" ? material::Closure::whole
-                                                                                  : material::Closure::volumetric;
-  if (of_damage("volumetric")) damage.trace = t.get("volumetric", one_of({"mean", "trace"})) == "trace";
-  const auto of_failure = [&](const char* key) { return t.applies(key, "model", model, {"failure-wave"}); };
-  material::FailureWave failure{elastic, 0, 0};
-  if (of_failure("threshold")) failure.threshold = t.need("threshold", not_negative());
-  if (of_failure("f_max")) {
-    failure.most_converted = t.must("f_max", not_negative()).value_or(0);
-    if (failure.most_converted > 1)
-      t.place("f_max").refuse(words(failure.most_converted), "0 to 1, a part of the shear energy");
-  }
-  if (model == "failure-wave" && elastic.plane == material::Plane::stress)
-    t.place("plane").refuse("\"stress\" of a failure wave", "\"strain\"");
-  if (model == "failure-wave" && elastic.poissons_ratio <= 0)
-    t.place("nu").refuse(words(elastic.poissons_ratio) + " of a failure wave",
-                         "0 < nu < 0.5: the lateral stress is what its front is seen by");
-  if (model == "failure-wave" && plate.compression)
-    t.place("compression").say("found beside a failure wave; allowed: without");
-  if (model == "tensile-damage")
-    plate.material = damage;
-  else if (model == "failure-wave")
-    plate.material = failure;
-  else
-    plate.material = elastic;
-}
-
-void read_damage(Table& t, Case& c) {
-  const auto* law = std::get_if<material::TensileDamage>(&*c.plate->material);
-  diffusion::Evolution evolution;
-  if (law) {
-    evolution.crack_coefficient = law->crack_coefficient();
-    evolution.exponent = law->exponent;
-  }
-  evolution.critical_strain = t.need("critical_strain", positive());
-  evolution.damage_everywhere = t.get("shows", one_of({"where-critical", "everywhere"})) == "everywhere";
-  if (!t.get("capped", flag(), true)) evolution.cap = std::numeric_limits<double>::infinity();
-  evolution.heals = t.get("heals", flag(), evolution.heals);
-  const std::string rate = t.need("rate", one_of({"reference", "tracked"}));
-  evolution.rate = rate == "tracked" ? diffusion::Rate::tracked : diffusion::Rate::reference;
-  if (t.applies("reference_rate", "rate", rate, {"reference"}))
-    evolution.reference_rate = t.need("reference_rate", positive());
-  if (t.applies("rate_floor", "rate", rate, {"tracked"}))
-    evolution.rate_floor = t.get("rate_floor", positive(), evolution.rate_floor);
-  c.plate->evolution = evolution;
-}
-
-diffusion::Scheme read_scheme(Table& t, diffusion::Scheme usual) {
-  using diffusion::Scheme;
-  return named<Scheme>(t, "scheme",
-                       {{"forward-euler", Scheme::forward_euler},
-                        {"sub-cycled", Scheme::sub_cycled},
-                        {"rkl2", Scheme::rkl2},
-                        {"backward-euler", Scheme::backward_euler},
-                        {"crank-nicolson", Scheme::crank_nicolson}},
-                       usual);
-}
-
-diffusion::Reading read_reading(Table& t) {
-  using diffusion::Reading;
-  return named<Reading>(t, "reading", {{"isotropic", Reading::isotropic}, {"radial", Reading::radial}},
-                        Reading::isotropic);
-}
-
-/// Of microcracks, driven by the strain (eqs. 25 to 28).
-void read_diffusion(Table& t, Case& c) {
-  diffusion::Diffusion d;
-  d.characteristic_time = t.need("T_d", positive());
-  d.mobility = t.need("lambda1", not_negative());
-  d.floor = t.get("floor", not_negative(), d.floor);
-  if (d.floor > 1) t.place("floor").refuse(words(d.floor), "0 to 1, a part of lambda1");
-  d.crack_volume = t.need("lambda2", positive());
-  d.rupture_strain = t.need("rupture_strain", positive());
-  using diffusion::Source;
-  const std::string source = t.need("source", one_of({"zone", "node", "everywhere"}));
-  d.source = source == "node" ? Source::node : source == "everywhere" ? Source::everywhere : Source::zone;
-  if (t.applies("radius", "source", source, {"zone"})) d.radius = t.need("radius", positive());
-  d.per_crack_volume = t.get("per_crack_volume", flag(), d.per_crack_volume);
-  d.saturates = t.get("saturates", flag(), d.saturates);
-  d.clip_strain = t.get("clip_strain", flag(), d.clip_strain);
-  d.scheme = read_scheme(t, d.scheme);
-  d.reading = read_reading(t);
-  d.drift = t.get("drift", not_negative(), d.drift);
-  if (d.drift > 0 && d.scheme == diffusion::Scheme::crank_nicolson)
-    t.place("drift").refuse(words(d.drift) + " with \"crank-nicolson\"",
-                            "0: it does not damp what a stale factorisation gets wrong");
-  if (!c.plate->evolution) {
-    t.say("found beside a material without damage; allowed: with material.model = \"tensile-damage\" and [damage]");
-    return;
-  }
-  c.plate->evolution->diffusion = d;
-}
-
-/// Of the dilatancy of a failure wave.
-diffusion::Spread read_spread(Table& t) {
-  using diffusion::Profile;  // in the order of its names
-  diffusion::Spread spread;
-  spread.diffusivity = t.need("d0", not_negative());
-  const Names profiles{"falling", "constant", "rising"};
-  spread.profile = in_order<Profile>(t.need("profile", one_of(profiles)), profiles);
-  spread.scheme = read_scheme(t, spread.scheme);
-  return spread;
-}
-
-void read_dilatancy(Table& t, Case& c) {
-  PlateSpec& plate = *c.plate;
-  plate.spread = read_spread(t);
-  plate.spread->drift = t.get("drift", not_negative(), 0);
-  if (plate.spread->drift > 0 && plate.spread->scheme == diffusion::Scheme::crank_nicolson)
-    t.place("drift").refuse(words(plate.spread->drift) + " with \"crank-nicolson\"",
-                            "0: it does not damp what a stale factorisation gets wrong");
-  plate.spread->keeps_largest = t.get("face_holds", one_of({"present", "largest"})) == "largest";
-  if (!t.has("face")) return;
-  plate.face = t.need("face", not_negative());
-  if (plate.width > 0 && *plate.face > plate.width)
-    t.place("face").refuse(words(*plate.face), "a place in the plate, 0 to " + words(plate.width) + " m");
 }
 
 /// Of anything, in a scene without a material.
@@ -304,10 +142,10 @@ void read_plate_load(Table& t, Case& c) {
 }
 
 void read_plate_initial(Table& t, Case& c) {
-  if (c.plate->material) {
+  if (c.plate->solid) {
     c.plate->initial_velocity = read_components<2>(t, "velocity", {"x", "y"}, c);
     c.plate->initial_displacement = read_components<2>(t, "displacement", {"x", "y"}, c);
-    if (c.plate->spread) c.plate->initial_concentration = read_formula(t, "dilatancy", {"x", "y"}, c);
+    if (c.plate->failing()) c.plate->initial_concentration = read_formula(t, "dilatancy", {"x", "y"}, c);
   } else if (!c.plate->diffusion || !c.plate->diffusion->spread) {
     c.plate->initial_concentration = read_formula(t, "concentration", {"x", "y"}, c);
   }
@@ -340,7 +178,7 @@ void read_plate_viscosity(Table& t, Case& c) {
   v.bulk = t.get("bulk", positive(), v.bulk);
   v.length = t.get("length", positive(), v.length);
   v.always = t.get("acts", one_of({"compression", "always"})) == "always";
-  if (!c.plate->spread && (c.plate->evolution || c.plate->compression))
+  if (!takes_viscosity(*c.plate->solid))
     t.say("found beside tensile damage or plasticity; allowed: with an elastic plate or a failure wave");
   c.plate->viscosity = v;
 }
@@ -349,7 +187,7 @@ void read_plate_exact(Table& t, Case& c) {
   PlateExact& exact = c.plate->exact;
   using Scene = analytic::PlaneSolutionRow::Scene;
   const bool spreads = c.plate->diffusion && c.plate->diffusion->spread;
-  const Scene scene = c.plate->material ? Scene::solid : spreads ? Scene::front : Scene::diffusion;
+  const Scene scene = c.plate->solid ? Scene::solid : spreads ? Scene::front : Scene::diffusion;
   Names solutions;
   for (const analytic::PlaneSolutionRow& row : analytic::plane_solutions())
     if (row.scene == scene) solutions.push_back(row.name);
@@ -381,20 +219,12 @@ void read_scene(Table& file, Case& c) {
   file.table("plate", [&](Table& t) { read_shape(t, c); });
   file.maybe_table("material", [&](Table& t) { read_plate_material(t, c); });
   file.maybe_table("parameters", [&](Table& t) { read_parameters(t, c); });
-  if (!c.plate->material) {
+  if (!c.plate->solid) {
     for (const char* key : {"supports", "damage", "load", "body_force", "flyer", "viscosity"})
       if (file.has(key)) file.place(key).say("found in a scene without [material]; allowed: with one");
     file.table("diffusion", [&](Table& t) { read_pure_diffusion(t, c); });
   } else {
-    const bool damaging = std::holds_alternative<material::TensileDamage>(*c.plate->material);
-    if (damaging)
-      file.table("damage", [&](Table& t) { read_damage(t, c); });
-    else if (file.has("damage"))
-      file.place("damage").say("found beside an elastic material; allowed: with material.model = \"tensile-damage\"");
-    if (std::holds_alternative<material::FailureWave>(*c.plate->material))
-      file.table("diffusion", [&](Table& t) { read_dilatancy(t, c); });
-    else
-      file.maybe_table("diffusion", [&](Table& t) { read_diffusion(t, c); });
+    read_solid_tables(file, c);
     file.table("supports", [&](Table& t) { read_plate_supports(t, c); });
     file.maybe_table("flyer", [&](Table& t) { read_flyer(t, c); });
     file.maybe_table("viscosity", [&](Table& t) { read_plate_viscosity(t, c); });
@@ -495,14 +325,13 @@ PlateProbe read_plate_probe(Table& t, const Case& c) {
   PlateProbe probe;
   probe.id = t.need("id", id());
   Names reads{"concentration", "total"};
-  if (c.plate->material) {
+  if (c.plate->solid) {
     reads = {"displacement-x", "displacement-y", "velocity-x", "velocity-y", "stress-xx", "stress-yy", "stress-xy"};
     const auto& supports = c.plate->supports;
     if (std::find(supports.begin(), supports.end(), Edge::Support::platen) != supports.end()) reads.push_back("platen");
-    if (c.plate->evolution)
+    if (c.plate->cracking())
       reads.insert(reads.end(), {"radius", "area", "largest", "acoustic-ratio", "acoustic-angle"});
-    if ((c.plate->evolution && c.plate->evolution->diffusion) || c.plate->spread)
-      reads.insert(reads.end(), {"concentration", "total"});
+    if (diffuses(*c.plate->solid)) reads.insert(reads.end(), {"concentration", "total"});
   }
   probe.reads = t.need("reads", one_of(reads));
   const auto of = [&](const char* key, const Names& owners) { return t.applies(key, "reads", probe.reads, owners); };
@@ -614,7 +443,7 @@ void check_particles(const AxesBlock& block, const Case& c) {
     block.method.say("found " + family +
                      " together with finite displacements and a load, a driven side or a platen; allowed: free sides, "
                      "rollers and fixed ones: the others stand on the grid, which the particles leave");
-  if (c.convected && (c.plate->flyer || c.plate->viscosity || c.plate->spread))
+  if (c.convected && (c.plate->flyer || c.plate->viscosity || c.plate->failing()))
     block.method.say("found " + family +
                      " together with finite displacements and a flyer, a failure wave or viscosity; allowed: "
                      "\"infinitesimal\": the grid follows the material");
@@ -639,16 +468,19 @@ void read_plate_case(Table& file, Case& c) {
   const bool scene_is_read = file.mistakes() == before;
   file.table("model", [&](Table& t) {
     c.convected = t.get("displacements", one_of({"infinitesimal", "finite"})) == "finite";
-    if (c.plate->material && t.has("pic")) {
+    if (c.plate->solid && t.has("pic")) {
       c.plate->pic = t.get("pic", not_negative());
       if (c.plate->pic > 1) t.place("pic").refuse(words(c.plate->pic), "0 (FLIP) to 1 (PIC)");
     }
-    c.features =
-        t.need("features", set_of(one_of({"elastic", "damage", "diffusion", "compression-plasticity", "platen",
-                                          "body-force", "convection", "pic", "failure-wave", "impact", "viscosity"})));
+    Names features{"elastic",      "damage",     "diffusion",  "compression-plasticity",
+                   "platen",       "body-force", "convection", "pic",
+                   "failure-wave", "impact",     "viscosity"};
+    for (const PlateModel& model : plate_models())
+      if (!contains(features, model.feature)) features.push_back(model.feature);
+    c.features = t.need("features", set_of(one_of(features)));
     std::sort(c.features.begin(), c.features.end());
     if (scene_is_read) check_plate_features(t.place("features"), c);
-    if (c.convected && c.plate->evolution)
+    if (c.convected && c.plate->cracking())
       t.place("displacements").say("found \"finite\" beside damage; allowed: \"infinitesimal\", as in the paper");
   });
   if (scene_is_read) file.each("variant", [&](Table& t) { read_variant(t, file, c); });

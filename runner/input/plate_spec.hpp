@@ -4,10 +4,11 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "analytic/solution_parameter.hpp"
-#include "hinge/diffusion/damage_evolution.hpp"
+#include "hinge/diffusion/concentration.hpp"
 #include "hinge/diffusion/dilatancy.hpp"
 #include "hinge/scene/plate.hpp"
 
@@ -68,12 +69,9 @@ struct PlateSpec {
   double cell_aspect = 1;        ///< height of a cell / its width
   int rows = 0;                  ///< of cells, whatever the mesh: the height follows; 0: the height is given
   double pic = 0;
-  std::optional<PlateMaterial> material;  ///< none: diffusion alone
-  std::optional<material::Compression> compression;
-  std::optional<diffusion::Evolution> evolution;  ///< with tensile damage
-  std::optional<PureDiffusion> diffusion;         ///< without a material
-  std::optional<diffusion::Spread> spread;        ///< with a failure wave
-  std::optional<double> face;                     ///< impact face of a failure wave without a flyer [m]
+  std::optional<PlateSolid> solid;         ///< none: diffusion alone
+  std::optional<PureDiffusion> diffusion;  ///< without a solid
+  std::optional<double> face;              ///< impact face of a failure wave without a flyer [m]
   std::optional<FlyerSpec> flyer;
   std::optional<material::Viscosity> viscosity;
   std::array<Edge::Support, 4> supports{};  ///< by Side
@@ -82,9 +80,15 @@ struct PlateSpec {
   Pair initial_velocity, initial_displacement;  ///< of x and y
   std::string initial_concentration;            ///< of x and y; C, or V_d of a failure wave
   PlateExact exact;
+
+  /// The solid, where it is such a one; else null.
+  const solid::Cracking* cracking() const { return solid ? std::get_if<solid::Cracking>(&*solid) : nullptr; }
+  solid::Cracking* cracking() { return solid ? std::get_if<solid::Cracking>(&*solid) : nullptr; }
+  const solid::Failing* failing() const { return solid ? std::get_if<solid::Failing>(&*solid) : nullptr; }
+  solid::Failing* failing() { return solid ? std::get_if<solid::Failing>(&*solid) : nullptr; }
 };
 
-inline const material::PlaneElastic& elastic_of(const PlateSpec& plate) { return elastic(*plate.material); }
+inline const material::PlaneElastic& elastic_of(const PlateSpec& plate) { return elastic(*plate.solid); }
 
 /// What is read from a plate at each sample time as a single number.
 struct PlateProbe {

@@ -15,31 +15,41 @@ namespace {
 
 using analytic::PlaneQuantity;
 
+/// How cracks or dilatancy diffuse, and with which largest diffusivity; nothing where nothing does.
+struct Diffusing {
+  diffusion::Scheme* scheme = nullptr;
+  double diffusivity = 0;
+};
+Diffusing diffusing(PlateSolid& solid) {
+  if (auto* cracking = std::get_if<solid::Cracking>(&solid); cracking && cracking->evolution.diffusion)
+    return {&cracking->evolution.diffusion->scheme, cracking->evolution.diffusion->mobility};
+  if (auto* failing = std::get_if<solid::Failing>(&solid))
+    return {&failing->spread.scheme, failing->spread.diffusivity};
+  return {};
+}
+
 /// With forward Euler beside it one step satisfies the limits of both the wave and the diffusion: the paper's way.
-double with_diffusion(double asked, const PlateScene& scene, const diffusion::Grid& grid) {
-  constexpr auto euler = diffusion::Scheme::forward_euler;
-  const auto& evolution = scene.evolution;
-  if (evolution && evolution->diffusion && evolution->diffusion->scheme == euler)
-    asked = std::min(asked, diffusion::forward_euler_limit(grid, evolution->diffusion->mobility));
-  if (scene.spread && scene.spread->scheme == euler && scene.spread->diffusivity > 0)
-    asked = std::min(asked, diffusion::forward_euler_limit(grid, scene.spread->diffusivity));
+double with_diffusion(double asked, PlateSolid solid, const diffusion::Grid& grid) {
+  const auto [scheme, diffusivity] = diffusing(solid);
+  if (scheme && *scheme == diffusion::Scheme::forward_euler && diffusivity > 0)
+    asked = std::min(asked, diffusion::forward_euler_limit(grid, diffusivity));
   return asked;
 }
 
 }  // namespace
 
 PlateLeaf::PlateLeaf(const Case& case_of_leaf, const Leaf& one)
-    : LeafScene(
-          case_of_leaf, one, panel(one.method), panel(one.method).plate,
-          {make_plate(case_of_leaf, one.cells), case_of_leaf.plate->evolution, spread_of(case_of_leaf, one.cells)},
-          {grid_of(*case_of_leaf.plate, one.cells), one.particles}),
+    : LeafScene(case_of_leaf, one, panel(one.method), panel(one.method).plate, make_plate(case_of_leaf, one.cells),
+                {grid_of(*case_of_leaf.plate, one.cells), one.particles}),
       exact_([&case_of_leaf] { return make_plane_exact(case_of_leaf); }) {}
 
 double PlateLeaf::unit_time_step() const {
-  return std::min(mesh.grid.hx, mesh.grid.hy) / elastic(scene.plate).pressure_wave_speed();
+  return std::min(mesh.grid.hx, mesh.grid.hy) / elastic(scene).pressure_wave_speed();
 }
 
-double PlateLeaf::asked_time_step() const { return with_diffusion(leaf.courant * unit_time_step(), scene, mesh.grid); }
+double PlateLeaf::asked_time_step() const {
+  return with_diffusion(leaf.courant * unit_time_step(), scene.solid, mesh.grid);
+}
 
 Read PlateLeaf::reads(bool keep_fields) const {
   const bool at_a_place = std::any_of(c.plate_probes.begin(), c.plate_probes.end(), [](const PlateProbe& probe) {
@@ -49,9 +59,7 @@ Read PlateLeaf::reads(bool keep_fields) const {
   return keep_fields || at_a_place || row.half_steps ? Read::all : Read::whole;
 }
 
-std::optional<double> PlateLeaf::mass() const {
-  return elastic(scene.plate).density * scene.plate.width * scene.plate.height;
-}
+std::optional<double> PlateLeaf::mass() const { return elastic(scene).density * scene.width * scene.height; }
 
 void PlateLeaf::trace(const PlateRecord& record, const std::vector<long>&, const Stepping& stepping,
                       reports::Run& run) const {
@@ -77,14 +85,13 @@ void PlateLeaf::measure(const PlateRecord& record, const Stepping& stepping, rep
 void PlateLeaf::measure_against_forward_euler(const PlateRecord& record, const Stepping& stepping,
                                               reports::Run& run) const {
   const char* quantity = "cross.forward-euler";
-  const bool spreads = (scene.evolution && scene.evolution->diffusion) || scene.spread;
-  if (!spreads || !asks_for(c, leaf, quantity)) return;
-  PlateScene other = scene;
-  diffusion::Scheme& scheme = other.spread ? other.spread->scheme : other.evolution->diffusion->scheme;
+  Plate other = scene;
+  diffusion::Scheme* scheme = diffusing(other.solid).scheme;
+  if (!scheme || !asks_for(c, leaf, quantity)) return;
   // It would be compared with itself: no measure, and a gate on it is INVALID.
-  if (scheme == diffusion::Scheme::forward_euler) return;
-  scheme = diffusion::Scheme::forward_euler;
-  const double asked = with_diffusion(leaf.courant * unit_time_step(), other, mesh.grid);
+  if (*scheme == diffusion::Scheme::forward_euler) return;
+  *scheme = diffusion::Scheme::forward_euler;
+  const double asked = with_diffusion(leaf.courant * unit_time_step(), other.solid, mesh.grid);
   const long parts = static_cast<long>(std::ceil(stepping.time_step / asked));
   Stepping finer = stepping;
   finer.time_step /= static_cast<double>(parts);
@@ -114,18 +121,15 @@ double PlateLeaf::differing(const PlateRecord& a, const PlateRecord& b, const Po
   return runner::differing(a, b, by, mirror);
 }
 
-PlateScene PlateLeaf::scaled_scene(const PowersOfTwo& by) const {
-  return {scaled(scene.plate, by), scene.evolution, scene.spread};
-}
+Plate PlateLeaf::scaled_scene(const PowersOfTwo& by) const { return scaled(scene, by); }
 
-std::pair<PlateScene, PlateMesh> PlateLeaf::seen_from_behind() const {
-  return {{mirrored(scene.plate), scene.evolution, scene.spread}, mesh};
-}
+std::pair<Plate, PlateMesh> PlateLeaf::seen_from_behind() const { return {mirrored(scene), mesh}; }
 
-std::vector<std::pair<std::string, PlateScene>> PlateLeaf::without_what_does_nothing() const {
-  if (!scene.evolution && !scene.spread) return {};
-  PlateScene whole{scene.plate, {}, {}};
-  whole.plate.material = elastic(scene.plate);
+std::vector<std::pair<std::string, Plate>> PlateLeaf::without_what_does_nothing() const {
+  if (!changes_in_cells(scene.solid)) return {};
+  Plate whole = scene;
+  whole.solid = solid::Elastic{elastic(scene)};
+  if (const auto* cone = compression_of(scene.solid)) std::get<solid::Elastic>(whole.solid).compression = *cone;
   return {{"bits.undamaged", std::move(whole)}};
 }
 

@@ -6,7 +6,7 @@
 
 namespace diptych::runner {
 
-class PlateLeaf final : public LeafScene<PlateScene, PlateMesh, PlateRecord> {
+class PlateLeaf final : public LeafScene<Plate, PlateMesh, PlateRecord> {
  public:
   PlateLeaf(const Case&, const Leaf&);
 
@@ -21,9 +21,9 @@ class PlateLeaf final : public LeafScene<PlateScene, PlateMesh, PlateRecord> {
   void measure(const PlateRecord&, const Stepping&, reports::Run&) const override;
   std::vector<std::string> declared() const override;
   double differing(const PlateRecord&, const PlateRecord&, const PowersOfTwo&, bool mirror) const override;
-  PlateScene scaled_scene(const PowersOfTwo&) const override;
-  std::pair<PlateScene, PlateMesh> seen_from_behind() const override;
-  std::vector<std::pair<std::string, PlateScene>> without_what_does_nothing() const override;
+  Plate scaled_scene(const PowersOfTwo&) const override;
+  std::pair<Plate, PlateMesh> seen_from_behind() const override;
+  std::vector<std::pair<std::string, Plate>> without_what_does_nothing() const override;
   std::optional<double> predicted_limit() const override;
 
  private:

@@ -15,9 +15,7 @@
 namespace diptych::runner {
 namespace {
 
-const material::TensileDamage& damage_of(const Case& c) {
-  return std::get<material::TensileDamage>(*c.plate->material);
-}
+const material::TensileDamage& damage_of(const Case& c) { return c.plate->cracking()->law; }
 
 /// Mean of the cells around each node.
 std::vector<double> cells_to_nodes(const diffusion::Grid& grid, const std::vector<double>& cells) {
@@ -41,7 +39,7 @@ std::vector<double> cells_to_nodes(const diffusion::Grid& grid, const std::vecto
 /// loaded: where C_d is that of eq. 23a now. NaN where a strain is; the whole solid's 1 where no cell is in tension.
 material::Bifurcation least_bifurcation(const Case& c, const PlateSnapshot& snapshot) {
   const material::TensileDamage& law = damage_of(c);
-  const diffusion::Evolution& evolution = *c.plate->evolution;
+  const diffusion::Evolution& evolution = c.plate->cracking()->evolution;
   material::Bifurcation least{1, 0};
   for (std::size_t cell = 0; cell < snapshot.crack_density.size(); ++cell) {
     const double volumetric = snapshot.volumetric_strain[cell], crack_density = snapshot.crack_density[cell];
@@ -129,7 +127,7 @@ PointField nodes_as_points(const diffusion::Grid& grid, const std::vector<double
 }
 
 reports::PlateFields damage_fields(const Case& c, const diffusion::Grid& grid, const PlateSnapshot& snapshot) {
-  const diffusion::Evolution& evolution = *c.plate->evolution;
+  const diffusion::Evolution& evolution = c.plate->cracking()->evolution;
   reports::PlateFields fields{grid.nx, grid.ny, c.plate->width, c.plate->height, {}, {}};
   fields.crack_density = evolution.diffusion ? snapshot.concentration : cells_to_nodes(grid, snapshot.crack_density);
   if (evolution.diffusion)
@@ -269,7 +267,7 @@ Plate scaled(const Plate& plate, const PowersOfTwo& by) {
   Plate out = plate;
   out.width *= by.length;
   out.height *= by.length;
-  auto& elastic = std::get<material::PlaneElastic>(out.material);
+  auto& elastic = std::get<solid::Elastic>(out.solid).law;
   elastic.youngs_modulus *= by.modulus;
   elastic.density *= by.density;
   const double time = by.time(), velocity = by.velocity(), length = by.length;

@@ -504,7 +504,7 @@ BOOST_AUTO_TEST_CASE(lattice_is_what_the_solvers_do) {
     diptych::Plate plate;
     plate.width = p.cells * p.scheme.hx;
     plate.height = 3 * p.scheme.hy;
-    plate.material = solid;
+    plate.solid = diptych::solid::Elastic{solid};
     const double face = plate.width * p.face / p.cells;
     plate.initial_velocity = [&](double x, double) -> diptych::Vector {
       return {x < face ? p.velocity : x == face ? p.velocity / 2 : 0, 0};
@@ -517,9 +517,9 @@ BOOST_AUTO_TEST_CASE(lattice_is_what_the_solvers_do) {
     stepping.time_step = p.scheme.time_step;
     stepping.steps = 150;
     stepping.sample_after = {1, 2, 3, 40, 150};
-    const auto record = fem ? diptych::fem::run(plate, {p.cells, 3}, std::nullopt, stepping)
-                            : diptych::mpm::run(plate, {p.cells, 3}, p.scheme.positions, scheme_of(p.scheme.method),
-                                                std::nullopt, stepping);
+    const auto record =
+        fem ? diptych::fem::run(plate, {p.cells, 3}, stepping)
+            : diptych::mpm::run(plate, {p.cells, 3}, p.scheme.positions, scheme_of(p.scheme.method), stepping);
     const ImpactLattice lattice(p);
     const double ratio = glass.lambda / (glass.lambda + 2 * glass.mu);
     BOOST_REQUIRE(record.snapshots.size() == 5);
@@ -552,7 +552,7 @@ BOOST_AUTO_TEST_CASE(gauges_of_the_solvers) {
     diptych::Plate plate;
     plate.width = p.cells * p.scheme.hx;
     plate.height = 2 * p.scheme.hy;
-    plate.material = diptych::material::PlaneElastic{72.8e9, 0.222, 2563};
+    plate.solid = diptych::solid::Elastic{{72.8e9, 0.222, 2563}};
     for (const auto side : {diptych::Side::bottom, diptych::Side::top})
       plate.edge(side).support = diptych::Edge::Support::roller;
     plate.impact = diptych::Impact{plate.width * p.face / p.cells, p.velocity, 0};
@@ -560,9 +560,9 @@ BOOST_AUTO_TEST_CASE(gauges_of_the_solvers) {
     diptych::Stepping stepping;
     stepping.time_step = p.scheme.time_step;
     stepping.steps = 150;
-    const auto record = fem ? diptych::fem::run(plate, {p.cells, 2}, std::nullopt, stepping)
-                            : diptych::mpm::run(plate, {p.cells, 2}, p.scheme.positions, scheme_of(p.scheme.method),
-                                                std::nullopt, stepping);
+    const auto record =
+        fem ? diptych::fem::run(plate, {p.cells, 2}, stepping)
+            : diptych::mpm::run(plate, {p.cells, 2}, p.scheme.positions, scheme_of(p.scheme.method), stepping);
     const ImpactLattice lattice(p);
     BOOST_REQUIRE(record.gauges.size() == 2);
     for (std::size_t g = 0; g < 2; ++g) {

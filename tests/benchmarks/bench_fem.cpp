@@ -60,7 +60,7 @@ double bandwidth(int threads, bool literal) {
 Plate elastic_plate() {
   Plate plate;
   plate.width = plate.height = 1;
-  plate.material = material::PlaneElastic{50e9, 0.3, 2500, material::Plane::strain};
+  plate.solid = solid::Elastic{{50e9, 0.3, 2500, material::Plane::strain}};
   plate.edge(Side::left).support = plate.edge(Side::bottom).support = Edge::Support::roller;
   plate.edge(Side::top).normal_traction = [](double, double) { return 1e6; };
   return plate;
@@ -77,7 +77,7 @@ void fem_elastic(benchmark::State& state) {
   const auto time = [&](long steps) {  // of a run of so many steps and of what every run takes
     stepping.steps = steps;
     const auto start = std::chrono::steady_clock::now();
-    benchmark::DoNotOptimize(fem::run(plate, {cells, cells}, std::nullopt, stepping));
+    benchmark::DoNotOptimize(fem::run(plate, {cells, cells}, stepping));
     return seconds_since(start);
   };
   const long steps = std::max(20L, static_cast<long>(4e7 / elements));

@@ -19,11 +19,9 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 /// The paper's constants: C_d = 1e21 ε⁷/ε̇².
-Evolution paper_local() {
-  Evolution e;
-  e.crack_coefficient = 1e21;
-  return e;
-}
+const CrackGrowth growth = [](double strain, double rate) { return 1e21 * std::pow(strain, 7) / (rate * rate); };
+
+Evolution paper_local() { return {}; }
 
 Evolution paper() {
   Evolution e = paper_local();
@@ -78,7 +76,7 @@ BOOST_AUTO_TEST_CASE(diffusivity_as_printed_falls_to_nothing_at_rupture) {
 
 // Eq. 23a by hand: 1e21 · 0.003⁷/100² = 0.2187, 0.002⁷: 0.0128, 0.0025⁷: 0.06103515625.
 BOOST_AUTO_TEST_CASE(local_damage_by_hand_never_heals) {
-  DamageEvolution e(paper_local(), one_cell);
+  DamageEvolution e(paper_local(), growth, one_cell);
   BOOST_TEST(one(e) == 0.0);
   for (const auto& [strain, density] : {std::pair{0.0019, 0.0},
                                         {0.002, 0.0128},
@@ -100,7 +98,7 @@ BOOST_AUTO_TEST_CASE(local_damage_by_hand_never_heals) {
 BOOST_AUTO_TEST_CASE(local_damage_shows_everywhere_on_request) {
   Evolution evolution = paper_local();
   evolution.damage_everywhere = true;
-  DamageEvolution e(evolution, one_cell);
+  DamageEvolution e(evolution, growth, one_cell);
   e.advance(uniform(one_cell, 0.001), 1e-6);
   BOOST_TEST(one(e) == 1e-4, tt::tolerance(1e-13));
   e.advance(uniform(one_cell, -0.001), 1e-6);
@@ -111,7 +109,7 @@ BOOST_AUTO_TEST_CASE(local_damage_shows_everywhere_on_request) {
 BOOST_AUTO_TEST_CASE(local_damage_keeps_what_it_had_before_the_critical_state) {
   Evolution evolution = paper_local();
   evolution.rate = Rate::tracked;
-  DamageEvolution e(evolution, one_cell);
+  DamageEvolution e(evolution, growth, one_cell);
   e.advance(uniform(one_cell, 5e-4), 1e-4);  // 5 per second: 1e21 · 5e-4⁷/5² = 3.125e-4
   BOOST_TEST(one(e) == 0.0);
   e.advance(uniform(one_cell, 0.002), 1e-6);  // 1500 per second: 5.7e-5 by itself
@@ -121,7 +119,7 @@ BOOST_AUTO_TEST_CASE(local_damage_keeps_what_it_had_before_the_critical_state) {
 BOOST_AUTO_TEST_CASE(tracked_rate_is_the_largest_so_far) {
   Evolution evolution = paper_local();
   evolution.rate = Rate::tracked;
-  DamageEvolution e(evolution, one_cell);
+  DamageEvolution e(evolution, growth, one_cell);
   e.advance(uniform(one_cell, 0.002), 1e-5);  // 200 per second, from zero
   BOOST_TEST(one(e) == 0.0128 / 4, tt::tolerance(1e-12));
   e.advance(uniform(one_cell, 0.002), 1e-5);
@@ -141,7 +139,7 @@ BOOST_AUTO_TEST_CASE(rate_has_a_floor) {
   evolution.rate = Rate::tracked;
   evolution.rate_floor = 50;
   evolution.cap = std::numeric_limits<double>::infinity();
-  DamageEvolution e(evolution, one_cell);
+  DamageEvolution e(evolution, growth, one_cell);
   e.advance(uniform(one_cell, 0.002), 1);
   BOOST_TEST(one(e) == 0.0512, tt::tolerance(1e-12));
   e.advance(uniform(one_cell, 0.01), 1);  // 1e21 · 1e-14/2500, and no cap
@@ -155,7 +153,7 @@ BOOST_AUTO_TEST_CASE(source_by_hand) {
     Evolution evolution = paper();
     evolution.diffusion->source = Source::everywhere;
     evolution.diffusion->per_crack_volume = per_volume;
-    DamageEvolution e(evolution, g);
+    DamageEvolution e(evolution, growth, g);
     const double part = per_volume ? 1 : 0.01;
     e.advance(uniform(g, 0.003), 1e-3);
     for (const double c : e.concentration()) BOOST_TEST(c == part * 2.187, tt::tolerance(1e-12));
@@ -175,13 +173,13 @@ BOOST_AUTO_TEST_CASE(strain_is_clipped_in_the_source_and_density_capped) {
   evolution.diffusion->saturates = false;
   for (const bool clipped : {true, false}) {
     evolution.diffusion->clip_strain = clipped;
-    DamageEvolution e(evolution, one_cell);
+    DamageEvolution e(evolution, growth, one_cell);
     e.advance(uniform(one_cell, 0.02), 1e-6);  // d = 0; 1e21 · 0.01⁷/1e4 = 1000
     BOOST_TEST(e.concentration()[0] == (clipped ? 1 : 128) * 1000 / 0.01 / 0.01 * 1e-6, tt::tolerance(1e-12));
     BOOST_TEST(one(e) == (clipped ? 0.1 : 0.5625), tt::tolerance(1e-12));
   }
   evolution.cap = 3;
-  DamageEvolution e(evolution, one_cell);
+  DamageEvolution e(evolution, growth, one_cell);
   e.advance(uniform(one_cell, 0.02), 1e-6);
   BOOST_TEST(one(e) == 3.0);
 }
@@ -189,14 +187,14 @@ BOOST_AUTO_TEST_CASE(strain_is_clipped_in_the_source_and_density_capped) {
 BOOST_AUTO_TEST_CASE(the_source_fills_up_to_the_cap_and_no_further) {
   Evolution evolution = paper();
   evolution.diffusion->source = Source::everywhere;
-  DamageEvolution e(evolution, one_cell);
+  DamageEvolution e(evolution, growth, one_cell);
   for (int step = 1; step <= 9; ++step) {
     e.advance(uniform(one_cell, 0.02), 1e-6);  // 0.1 a step while there is room
     BOOST_TEST(e.concentration()[0] == std::min(0.1 * step, 0.5625) / 0.01, tt::tolerance(1e-12));
     BOOST_TEST(e.fed() == e.total(), tt::tolerance(1e-12));
   }
   evolution.cap = std::numeric_limits<double>::infinity();  // nothing to fill up to
-  DamageEvolution uncapped(evolution, one_cell);
+  DamageEvolution uncapped(evolution, growth, one_cell);
   for (int step = 0; step < 9; ++step) uncapped.advance(uniform(one_cell, 0.02), 1e-6);
   BOOST_TEST(uncapped.concentration()[0] == 90.0, tt::tolerance(1e-12));
 }
@@ -205,7 +203,7 @@ BOOST_AUTO_TEST_CASE(tracked_rate_in_the_source) {
   Evolution evolution = paper();
   evolution.diffusion->source = Source::everywhere;
   evolution.rate = Rate::tracked;
-  DamageEvolution e(evolution, one_cell);
+  DamageEvolution e(evolution, growth, one_cell);
   e.advance(uniform(one_cell, 0.003), 1e-5);  // 300 per second
   BOOST_TEST(one(e) == 0.2187 / 9 * 1e-3, tt::tolerance(1e-12));
   e.advance(uniform(one_cell, 0.003), 1e-5);
@@ -215,9 +213,9 @@ BOOST_AUTO_TEST_CASE(tracked_rate_in_the_source) {
 BOOST_AUTO_TEST_CASE(critical_state_is_remembered_cell_by_cell) {
   const Grid g{6, 6, 0.1, 0.1};
   Evolution evolution = paper();
-  DamageEvolution shown(evolution, g);
+  DamageEvolution shown(evolution, growth, g);
   evolution.damage_everywhere = true;
-  DamageEvolution everywhere(evolution, g);
+  DamageEvolution everywhere(evolution, growth, g);
   std::vector<double> strain = uniform(g, 0.001);
   strain[0] = 0.003;
   strain[14] = 0.0025;
@@ -237,7 +235,7 @@ BOOST_AUTO_TEST_CASE(density_of_a_cell_is_the_mean_of_its_nodes) {
   Evolution evolution = paper();
   evolution.damage_everywhere = true;
   evolution.cap = std::numeric_limits<double>::infinity();
-  DamageEvolution e(evolution, g);
+  DamageEvolution e(evolution, growth, g);
   for (int n = 0; n < 4; ++n) e.advance(random_strains(g, 1, 0.001, 0.006), 1e-6);
   const auto c = e.concentration();
   for (std::size_t j = 0; j < 7; ++j) {
@@ -286,18 +284,18 @@ BOOST_AUTO_TEST_CASE(zone_is_fed_by_its_area) {
   const double q = 0.2187 / 0.01 / 0.01;
   for (const Grid& g : {Grid{10, 15, 0.1, 0.1}, Grid{16, 24, 0.0625, 0.0625}, Grid{20, 30, 0.05, 0.05},
                         Grid{3, 7, 0.3, 0.2}, Grid{40, 60, 0.025, 0.025}}) {
-    DamageEvolution e(paper(), g);
+    DamageEvolution e(paper(), growth, g);
     for (int n = 0; n < 10; ++n) e.advance(uniform(g, 0.003), 1e-6);
     BOOST_TEST(e.fed() == q * pi * 0.01 / 4 * 1e-5, tt::tolerance(1e-13));
     BOOST_TEST(e.total() == e.fed(), tt::tolerance(1e-13));
   }
   Evolution evolution = paper();
   evolution.diffusion->radius = 10;
-  DamageEvolution all(evolution, {3, 7, 0.3, 0.2});
+  DamageEvolution all(evolution, growth, {3, 7, 0.3, 0.2});
   all.advance(uniform({3, 7, 0.3, 0.2}, 0.003), 1e-6);
   BOOST_TEST(all.fed() == q * 0.9 * 1.4 * 1e-6, tt::tolerance(1e-13));
   evolution.diffusion->radius = 0;
-  DamageEvolution none(evolution, {3, 7, 0.3, 0.2});
+  DamageEvolution none(evolution, growth, {3, 7, 0.3, 0.2});
   none.advance(uniform({3, 7, 0.3, 0.2}, 0.003), 1e-6);
   BOOST_TEST(none.fed() == 0.0);
 }
@@ -306,7 +304,7 @@ BOOST_AUTO_TEST_CASE(single_node_is_fed_by_its_cell) {
   const Grid g{4, 4, 0.1, 0.2};
   Evolution evolution = paper();
   evolution.diffusion->source = Source::node;
-  DamageEvolution e(evolution, g);
+  DamageEvolution e(evolution, growth, g);
   std::vector<double> strain = uniform(g, 0.0099);
   strain[0] = 0.003;
   e.advance(strain, 1e-6);
@@ -321,7 +319,7 @@ BOOST_AUTO_TEST_CASE(staggered_step_by_hand) {
   for (const Scheme scheme : {Scheme::sub_cycled, Scheme::rkl2, Scheme::backward_euler}) {
     Evolution evolution = paper();
     evolution.diffusion->scheme = scheme;
-    DamageEvolution e(evolution, g);
+    DamageEvolution e(evolution, growth, g);
     Concentration by_hand(g, scheme);
     const Diffusion& d = *evolution.diffusion;
     for (unsigned n = 0; n < 12; ++n) {
@@ -362,9 +360,9 @@ BOOST_AUTO_TEST_CASE(damage_heals_on_request_alone) {
   const Grid g{4, 4, 0.1, 0.1};
   Evolution evolution = paper();
   evolution.diffusion->source = Source::node;
-  DamageEvolution keeps(evolution, g);
+  DamageEvolution keeps(evolution, growth, g);
   evolution.heals = true;
-  DamageEvolution heals(evolution, g);
+  DamageEvolution heals(evolution, growth, g);
   std::vector<double> strain = uniform(g, 0.003);
   keeps.advance(strain, 1e-5);
   heals.advance(strain, 1e-5);
@@ -397,7 +395,7 @@ BOOST_AUTO_TEST_CASE(zone_against_the_disc_in_the_plane) {
     const Grid g{n, n, 1.0 / n, 1.0 / n};
     Evolution evolution = paper();
     evolution.diffusion->source = source;
-    DamageEvolution e(evolution, g);
+    DamageEvolution e(evolution, growth, g);
     for (int k = 0; k < 4 * n; ++k) e.advance(uniform(g, strain), end / (4 * n));
     return std::abs(e.concentration()[0] / exact - 1);
   };
@@ -412,7 +410,7 @@ BOOST_AUTO_TEST_CASE(transposed_strains_give_transposed_bits) {
   const Grid g{9, 9, 0.012, 0.012};
   Evolution evolution = paper();
   evolution.cap = std::numeric_limits<double>::infinity();
-  DamageEvolution e(evolution, g), f(evolution, g);
+  DamageEvolution e(evolution, growth, g), f(evolution, growth, g);
   for (unsigned n = 0; n < 6; ++n) {
     const auto strain = random_strains(g, n, 0.001, 0.0099);
     std::vector<double> transposed(strain.size());
@@ -436,7 +434,7 @@ BOOST_AUTO_TEST_CASE(what_is_fed_is_there_with_every_scheme_and_reading) {
       evolution.rate = Rate::tracked;
       evolution.diffusion->scheme = scheme;
       evolution.diffusion->reading = reading;
-      DamageEvolution e(evolution, g);
+      DamageEvolution e(evolution, growth, g);
       for (unsigned n = 0; n < 40; ++n)
         e.advance(random_strains(g, n, 0.001, 0.012), scheme == Scheme::forward_euler ? 5e-7 : 1e-5);
       BOOST_TEST(e.total() > 0);
@@ -449,11 +447,11 @@ BOOST_AUTO_TEST_CASE(a_strain_that_is_not_a_number_shows) {
   const Grid g{8, 8, 0.1, 0.1};
   std::vector<double> strain = uniform(g, 0.001);
   strain[60] = std::nan("");
-  DamageEvolution with(paper(), g);
+  DamageEvolution with(paper(), growth, g);
   with.advance(strain, 1e-6);
   BOOST_TEST(std::isnan(with.crack_density()[60]));
   BOOST_TEST(std::isnan(with.concentration()[0]));
-  DamageEvolution local(paper_local(), g);
+  DamageEvolution local(paper_local(), growth, g);
   local.advance(strain, 1e-6);
   local.advance(uniform(g, 0.003), 1e-6);
   BOOST_TEST(std::isnan(local.crack_density()[60]));
@@ -464,9 +462,8 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   const auto refused = [](auto change) {
     Evolution evolution = paper();
     change(evolution);
-    BOOST_CHECK_THROW(DamageEvolution(evolution, one_cell), std::invalid_argument);
+    BOOST_CHECK_THROW(DamageEvolution(evolution, growth, one_cell), std::invalid_argument);
   };
-  refused([](Evolution& e) { e.crack_coefficient = -1; });
   refused([](Evolution& e) { e.cap = -1; });
   refused([](Evolution& e) { e.reference_rate = 0; });
   refused([](Evolution& e) { e.rate = Rate::tracked, e.rate_floor = 0; });
@@ -475,7 +472,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   refused([](Evolution& e) { e.diffusion->rupture_strain = 0; });
   refused([](Evolution& e) { e.diffusion->mobility = -1; });
   refused([](Evolution& e) { e.diffusion->radius = std::nan(""); });
-  DamageEvolution e(paper(), one_cell);
+  DamageEvolution e(paper(), growth, one_cell);
   BOOST_CHECK_THROW(e.advance(std::vector<double>(2, 0), 1), std::invalid_argument);
   BOOST_CHECK_THROW(e.advance(std::vector<double>(1, 0), 0), std::invalid_argument);
 }

@@ -36,7 +36,7 @@ Plate plate(double width, double height) {
   Plate p;
   p.width = width;
   p.height = height;
-  p.material = glass;
+  p.solid = solid::Elastic{glass};
   return p;
 }
 
@@ -60,9 +60,16 @@ diffusion::Spread from_face(int column, double diffusivity = 8) {
 /// A flyer of 3 of 8 columns, cells of 1 mm × 0.75 mm; damage starts at the face. Loaded and held in many ways.
 const Cells of_scene{8, 5};
 const Spread of_face = from_face(3);
+
+PlateRecord run_spreading(const Plate& p, const Cells& cells, const std::vector<double>& xi, Scheme scheme,
+                          const Stepping& how, const Spread& spread = std::nullopt) {
+  Plate with = p;
+  if (auto* failing = std::get_if<solid::Failing>(&with.solid); failing && spread) failing->spread = *spread;
+  return mpm::run(with, cells, xi, scheme, how);
+}
 Plate scene(double gap) {
   Plate p = plate(8e-3, 3.75e-3);
-  p.material = material::FailureWave{glass, 1e9, 0.5};
+  p.solid = solid::Failing{material::FailureWave{glass, 1e9, 0.5}};
   p.viscosity = york(0.3);
   p.impact = Impact{3e-3, 684, gap};
   hold(p, {Hold::free, Hold::fixed, Hold::roller, Hold::free});
@@ -77,7 +84,7 @@ Plate scene(double gap) {
 Stepping stepping(Plate p, const Cells& cells, Scheme s, double part, long steps,
                   const std::vector<double>& xi = quarters) {
   p.viscosity.reset();
-  p.material = material::PlaneElastic(elastic(p));
+  p.solid = solid::Elastic{material::PlaneElastic(elastic(p))};
   Stepping how;
   how.time_step = part * mpm::critical_time_step(p, cells, xi, s);
   how.steps = steps;
@@ -157,10 +164,10 @@ BOOST_DATA_TEST_CASE(a_failure_wave_that_does_not_begin_leaves_the_bits_alone, e
   if (kind == 0) wave.threshold = infinite;
   if (kind == 1) wave.most_converted = 0;  // pressed everywhere
   if (kind == 2) spread->face.reset();
-  failing.material = wave;
+  failing.solid = solid::Failing{wave};
   const Stepping how = stepping(p, {6, 5}, scheme(which), 0.4, 6);
-  const PlateRecord a = mpm::run(p, {6, 5}, quarters, scheme(which), std::nullopt, how);
-  const PlateRecord b = mpm::run(failing, {6, 5}, quarters, scheme(which), std::nullopt, how, spread);
+  const PlateRecord a = run_spreading(p, {6, 5}, quarters, scheme(which), how);
+  const PlateRecord b = run_spreading(failing, {6, 5}, quarters, scheme(which), how, spread);
   BOOST_TEST((motion(a) == motion(b)));
   BOOST_TEST(largest(first(b).dilatancy) == 0);
   BOOST_TEST(first(b).dilatancy.size() == 30U);
@@ -184,7 +191,7 @@ struct Quick {
 
   Quick(const material::FailureWave& wave, const Cells& cells, int which, const material::Tensor& end) {
     plate = ::plate(1, 0.6);
-    plate.material = wave;
+    plate.solid = solid::Failing{wave};
     how = stepping(plate, cells, scheme(which), 1e-7, 60);
     const double all = 60 * how.time_step;
     rate = end * (1 / all);
@@ -203,7 +210,7 @@ BOOST_DATA_TEST_CASE(stress_follows_from_strain_and_dilatancy, every_scheme* bda
   const material::FailureWave wave{glass, threshold, 0.5};
   auto [p, how, spread, rate] = Quick(wave, cells, which, {-0.06, 0.01, 0.02});
   how.sample_after = {1, 20, 60};
-  const PlateRecord r = mpm::run(p, cells, quarters, scheme(which), std::nullopt, how, spread);
+  const PlateRecord r = run_spreading(p, cells, quarters, scheme(which), how, spread);
   diffusion::Dilatancy oracle(spread, {cells.x, cells.y, 1.0 / 6, 0.2});
   double time = 0;
   auto s = r.snapshots.begin();
@@ -254,7 +261,7 @@ BOOST_DATA_TEST_CASE(what_the_failure_wave_takes, bdata::make({0, 1}), falls) {
   }
   for (how.sample_after.clear(); how.sample_after.size() < 60;)
     how.sample_after.push_back(static_cast<long>(how.sample_after.size()) + 1);
-  const PlateRecord r = mpm::run(p, cells, quarters, Scheme::musl, std::nullopt, how, spread);
+  const PlateRecord r = run_spreading(p, cells, quarters, Scheme::musl, how, spread);
   double taken = 0;
   material::Tensor before = start;
   bool cut_off = false;
@@ -280,7 +287,7 @@ BOOST_DATA_TEST_CASE(what_the_failure_wave_takes, bdata::make({0, 1}), falls) {
 BOOST_DATA_TEST_CASE(damage_may_be_there_at_the_start, every_scheme, which) {
   const material::FailureWave wave{glass, infinite, 0.5};
   Plate p = plate(1, 0.7);
-  p.material = wave;
+  p.solid = solid::Failing{wave};
   p.initial_displacement = [](double x, double y) { return Vector{-1e-2 * x, -2e-3 * y}; };
   diffusion::Spread spread;
   spread.diffusivity = 0;
@@ -288,7 +295,7 @@ BOOST_DATA_TEST_CASE(damage_may_be_there_at_the_start, every_scheme, which) {
   for (const std::size_t node : {0, 1, 7, 8}) spread.start[node] = 1e-3;
   Stepping how = stepping(p, {6, 5}, scheme(which), 1e-6, 2);
   how.sample_after = {1, 2};
-  const PlateRecord r = mpm::run(p, {6, 5}, quarters, scheme(which), std::nullopt, how, spread);
+  const PlateRecord r = run_spreading(p, {6, 5}, quarters, scheme(which), how, spread);
   BOOST_REQUIRE(r.snapshots.size() == 2U);
   const std::array<double, 4> dilatancy{1e-3, 5e-4, 0, 0};
   for (std::size_t q = 0; q < 16; ++q) {
@@ -323,7 +330,7 @@ BOOST_DATA_TEST_CASE(between_rollers_viscosity_is_the_bars, every_scheme* bdata:
   p.initial_velocity = [&](double x, double) { return Vector{velocity(x), 0}; };
   p.viscosity = viscosity;
   const Stepping how = stepping(p, {12, 3}, scheme(which), 0.3, 90);
-  const PlateRecord two = mpm::run(p, {12, 3}, quarters, scheme(which), std::nullopt, how);
+  const PlateRecord two = run_spreading(p, {12, 3}, quarters, scheme(which), how);
   const Record one = mpm::run(bar, 12, quarters, scheme(which), how);
   std::vector<double> v, stress;
   const PlateSnapshot& s = first(two);
@@ -355,7 +362,7 @@ BOOST_DATA_TEST_CASE(viscosity_takes_what_it_should, every_scheme* bdata::make({
   p.viscosity->c2 = 0.5;
   p = strained(p, -90 * sign, 20 * sign, 70);
   const Stepping how = stepping(p, {4, 7}, scheme(which), 0.05, 40);
-  const PlateRecord r = mpm::run(p, {4, 7}, quarters, scheme(which), std::nullopt, how);
+  const PlateRecord r = run_spreading(p, {4, 7}, quarters, scheme(which), how);
   const double D = -70, h = std::sqrt(0.25 * (0.6 / 7));
   const double q = glass.density * 0.75 * glass.pressure_wave_speed() * std::sqrt(2) * h * D * 1.5;
   if (sign > 0)
@@ -377,8 +384,8 @@ BOOST_DATA_TEST_CASE(viscosity_of_nothing_leaves_the_bits_alone, every_scheme, w
   Plate none = p;
   none.viscosity = york(0);
   const Stepping how = stepping(p, {6, 5}, scheme(which), 0.4, 50);
-  const PlateRecord a = mpm::run(p, {6, 5}, quarters, scheme(which), std::nullopt, how);
-  const PlateRecord b = mpm::run(none, {6, 5}, quarters, scheme(which), std::nullopt, how);
+  const PlateRecord a = run_spreading(p, {6, 5}, quarters, scheme(which), how);
+  const PlateRecord b = run_spreading(none, {6, 5}, quarters, scheme(which), how);
   BOOST_TEST((motion(a) == motion(b)));
   BOOST_TEST(a.work.bytes + 120 * sizeof(double) <= b.work.bytes);
   BOOST_TEST(mpm::critical_time_step(p, {6, 5}, quarters, scheme(which)) ==
@@ -393,7 +400,7 @@ bool stable(const Plate& p, const Cells& cells, const std::vector<double>& xi, S
   how.steps = 3000;
   how.books = Books::off;
   how.sample_after = {how.steps};
-  const PlateRecord r = mpm::run(p, cells, xi, s, std::nullopt, how);
+  const PlateRecord r = run_spreading(p, cells, xi, s, how);
   return r.outcome == Outcome::completed && largest(first(r).velocity.component[0]) < 1e3 &&
          largest(first(r).velocity.component[1]) < 1e3;
 }
@@ -414,7 +421,7 @@ BOOST_DATA_TEST_CASE(viscous_time_steps_are_the_runs_own, every_scheme* bdata::m
   }
   if (kind == 3) xi = {0.1, 0.4, 0.9};
   if (kind == 4) p.pic = 0.3;
-  if (kind == 5) std::get<material::PlaneElastic>(p.material).plane = material::Plane::stress;
+  if (kind == 5) std::get<solid::Elastic>(p.solid).law.plane = material::Plane::stress;
   p.initial_velocity = ragged;
   const double limit = mpm::critical_time_step(p, cells, xi, scheme(which));
   Plate without = p;
@@ -442,7 +449,7 @@ BOOST_DATA_TEST_CASE(a_failure_wave_lowers_the_time_step, every_scheme, which) {
   Plate p = plate(1, 1);
   const double whole = mpm::critical_time_step(p, {6, 6}, quarters, scheme(which));
   const material::FailureWave wave{glass, 1e9, 0.5};
-  p.material = wave;
+  p.solid = solid::Failing{wave};
   BOOST_TEST(mpm::critical_time_step(p, {6, 6}, quarters, scheme(which)) == whole / std::sqrt(wave.stiffening()),
              tt::tolerance(1e-12));
   BOOST_TEST(wave.stiffening() > 1);
@@ -461,7 +468,7 @@ BOOST_DATA_TEST_CASE(an_impact_has_its_plateau, every_scheme* bdata::make({0.0, 
   Stepping how = stepping(p, {400, 1}, scheme(which), 0.5, 1);
   how.steps = std::lround(2e-6 / how.time_step);
   how.sample_after = {how.steps};
-  const PlateRecord r = mpm::run(p, {400, 1}, quarters, scheme(which), std::nullopt, how);
+  const PlateRecord r = run_spreading(p, {400, 1}, quarters, scheme(which), how);
   const double plateau = glass.density * glass.pressure_wave_speed() * 684 / 2;
   BOOST_TEST(r.gauges[0].xx.back() == -plateau, tt::tolerance(1e-4));
   BOOST_TEST(r.gauges[0].yy.back() == -plateau * 0.222 / 0.778, tt::tolerance(1e-4));
@@ -488,8 +495,8 @@ BOOST_DATA_TEST_CASE(once_closed_a_gap_makes_no_difference, every_scheme* bdata:
     Plate with = scene(2e-4), without = scene(0);
     with.pic = without.pic = pic;
     const Stepping how = stepping(with, of_scene, scheme(which), 0.3, 60, xi);
-    const PlateRecord a = mpm::run(with, of_scene, xi, scheme(which), std::nullopt, how, of_face);
-    const PlateRecord b = mpm::run(without, of_scene, xi, scheme(which), std::nullopt, how, of_face);
+    const PlateRecord a = run_spreading(with, of_scene, xi, scheme(which), how, of_face);
+    const PlateRecord b = run_spreading(without, of_scene, xi, scheme(which), how, of_face);
     the_books_close(a);
     const auto fa = fields(a), fb = fields(b);
     BOOST_REQUIRE(fa.size() == fb.size());
@@ -523,8 +530,8 @@ BOOST_DATA_TEST_CASE(without_a_gap_an_impact_is_a_step_in_velocity, every_scheme
   p.impact = Impact{3e-3, 684, 0};
   q.initial_velocity = [](double x, double) { return Vector{x < 3e-3 ? 684.0 : 0.0, 0}; };
   const Stepping how = stepping(p, {8, 3}, scheme(which), 0.5, 40);
-  const PlateRecord a = mpm::run(p, {8, 3}, quarters, scheme(which), std::nullopt, how);
-  const PlateRecord b = mpm::run(q, {8, 3}, quarters, scheme(which), std::nullopt, how);
+  const PlateRecord a = run_spreading(p, {8, 3}, quarters, scheme(which), how);
+  const PlateRecord b = run_spreading(q, {8, 3}, quarters, scheme(which), how);
   BOOST_TEST((fields(a) == fields(b)));
   BOOST_TEST(a.work.bytes == b.work.bytes);
   the_books_close(a);
@@ -540,7 +547,7 @@ BOOST_DATA_TEST_CASE(the_flight_takes_whole_steps, every_scheme* bdata::make({0.
   const Stepping how = stepping(p, {8, 3}, scheme(which), 0.5, 1);
   const double travel = 684 * how.time_step;
   p.impact->gap = travels * travel;
-  const PlateRecord r = mpm::run(p, {8, 3}, quarters, scheme(which), std::nullopt, how);
+  const PlateRecord r = run_spreading(p, {8, 3}, quarters, scheme(which), how);
   BOOST_TEST(r.approach == std::round(travels) * how.time_step);
   BOOST_TEST(std::abs(r.left_over) <= travel / 2);
   BOOST_TEST(std::abs(r.left_over - (travels - std::round(travels)) * travel) < 1e-11 * p.impact->gap);
@@ -554,7 +561,7 @@ BOOST_DATA_TEST_CASE(flight_leaves_no_trace, every_scheme, which) {
   Plate p = plate(16e-3, 4e-3);
   p.impact = Impact{8e-3, 684, 3e-3};
   const Stepping how = stepping(p, {16, 4}, scheme(which), 0.3, 1);
-  const PlateRecord r = mpm::run(p, {16, 4}, quarters, scheme(which), std::nullopt, how);
+  const PlateRecord r = run_spreading(p, {16, 4}, quarters, scheme(which), how);
   const PlateSnapshot& s = first(r);
   BOOST_TEST(r.approach > 10 * how.time_step);
   int near = 0;
@@ -576,12 +583,12 @@ BOOST_DATA_TEST_CASE(flight_leaves_no_trace, every_scheme, which) {
 // ρ · face · height · velocity before, during and after.
 BOOST_DATA_TEST_CASE(momentum_is_the_flyers, every_scheme* bdata::make({0.0, 2e-4}), which, gap) {
   Plate p = plate(8e-3, 3.75e-3);
-  p.material = material::FailureWave{glass, 1e9, 0.5};
+  p.solid = solid::Failing{material::FailureWave{glass, 1e9, 0.5}};
   p.viscosity = york(0.3);
   p.impact = Impact{3e-3, 684, gap};
   Stepping how = stepping(p, of_scene, scheme(which), 0.3, 200);
   how.sample_after = {1, 2, 100, 200};
-  const PlateRecord r = mpm::run(p, of_scene, quarters, scheme(which), std::nullopt, how, of_face);
+  const PlateRecord r = run_spreading(p, of_scene, quarters, scheme(which), how, of_face);
   const double momentum = glass.density * 3e-3 * 3.75e-3 * 684;
   for (const PlateSnapshot& s : r.snapshots) {
     Vector sum{};
@@ -601,7 +608,7 @@ BOOST_AUTO_TEST_CASE(a_run_stopped_in_flight) {
   Stepping how = stepping(p, of_scene, Scheme::musl, 0.3, 10);
   const std::atomic<bool> stop{true};
   how.cancelled = &stop;
-  const PlateRecord r = mpm::run(p, of_scene, quarters, Scheme::musl, std::nullopt, how, of_face);
+  const PlateRecord r = run_spreading(p, of_scene, quarters, Scheme::musl, how, of_face);
   BOOST_TEST((r.outcome == Outcome::cancelled));
   BOOST_TEST(r.approach == 0);
   BOOST_TEST(r.steps == 0);
@@ -615,8 +622,8 @@ BOOST_DATA_TEST_CASE(the_books_close_with_everything, every_scheme* bdata::make(
   for (const std::vector<double>& xi : {quarters, std::vector{0.1, 0.4, 0.7}}) {
     Plate p = scene(gap);
     p.pic = pic;
-    const PlateRecord r = mpm::run(p, of_scene, xi, scheme(which), std::nullopt,
-                                   stepping(p, of_scene, scheme(which), 0.3, 200, xi), of_face);
+    const PlateRecord r =
+        run_spreading(p, of_scene, xi, scheme(which), stepping(p, of_scene, scheme(which), 0.3, 200, xi), of_face);
     the_books_close(r);
     BOOST_TEST(r.ledger.back().viscous > 0.01 * r.sums.held);
     BOOST_TEST(std::abs(r.ledger.back().dissipated) > 1e-4 * r.sums.held);
@@ -632,11 +639,11 @@ BOOST_DATA_TEST_CASE(any_number_of_threads_gives_the_same_bits, every_scheme* bd
   p.pic = 0.2;
   Stepping how = stepping(p, of_scene, scheme(which), 0.3, 60);
   how.sample_after = {1, 30, 60};
-  const PlateRecord one = mpm::run(p, of_scene, quarters, scheme(which), std::nullopt, how, of_face);
+  const PlateRecord one = run_spreading(p, of_scene, quarters, scheme(which), how, of_face);
   BOOST_REQUIRE((one.outcome == Outcome::completed));
   for (const int threads : {2, 3, 20}) {
     how.threads = threads;
-    const PlateRecord many = mpm::run(p, of_scene, quarters, scheme(which), std::nullopt, how, of_face);
+    const PlateRecord many = run_spreading(p, of_scene, quarters, scheme(which), how, of_face);
     BOOST_TEST((fields(one) == fields(many)));
     BOOST_TEST(one.left_over == many.left_over);
     BOOST_TEST(one.fed == many.fed);
@@ -653,7 +660,7 @@ BOOST_DATA_TEST_CASE(mirrored_scenes_give_mirrored_bits, every_scheme* bdata::ma
   for (const std::vector<double>& xi : {quarters, std::vector{0.25, 0.5, 0.75}}) {
     const int nx = 8, ny = 4;  // powers of two: places mirror exactly
     Plate p = plate(1, 1);
-    p.material = material::FailureWave{glass, 1e9, 0.5};
+    p.solid = solid::Failing{material::FailureWave{glass, 1e9, 0.5}};
     p.viscosity = york(0.3);
     p.initial_velocity = [](double x, double y) {
       const Vector v = ragged(x, y);
@@ -669,8 +676,8 @@ BOOST_DATA_TEST_CASE(mirrored_scenes_give_mirrored_bits, every_scheme* bdata::ma
     for (Gauge& g : m.gauges) (axis == 0 ? g.x : g.y) = 1 - (axis == 0 ? g.x : g.y);
     const Spread spread = from_face(4, 500);
     const Stepping how = stepping(p, {nx, ny}, scheme(which), 0.3, 60, xi);
-    const PlateRecord a = mpm::run(p, {nx, ny}, xi, scheme(which), std::nullopt, how, spread);
-    const PlateRecord b = mpm::run(m, {nx, ny}, xi, scheme(which), std::nullopt, how, spread);
+    const PlateRecord a = run_spreading(p, {nx, ny}, xi, scheme(which), how, spread);
+    const PlateRecord b = run_spreading(m, {nx, ny}, xi, scheme(which), how, spread);
     const std::size_t n = xi.size();
     const auto turned = [&](std::size_t i, std::size_t j) {
       return axis == 0 ? std::pair{nx - 1 - i, j} : std::pair{i, ny - 1 - j};
@@ -708,12 +715,12 @@ BOOST_DATA_TEST_CASE(mirrored_scenes_give_mirrored_bits, every_scheme* bdata::ma
 // Between rollers nothing moves across, and all rows are alike.
 BOOST_DATA_TEST_CASE(between_rollers_an_impact_is_uniform_across, every_scheme, which) {
   Plate p = plate(8e-3, 3.75e-3);
-  p.material = material::FailureWave{glass, 1e9, 0.5};
+  p.solid = solid::Failing{material::FailureWave{glass, 1e9, 0.5}};
   p.viscosity = york(0.3);
   p.impact = Impact{3e-3, 684, 3e-4};
   hold(p, {Hold::free, Hold::free, Hold::roller, Hold::roller});
-  const PlateRecord r = mpm::run(p, of_scene, quarters, scheme(which), std::nullopt,
-                                 stepping(p, of_scene, scheme(which), 0.3, 60), of_face);
+  const PlateRecord r =
+      run_spreading(p, of_scene, quarters, scheme(which), stepping(p, of_scene, scheme(which), 0.3, 60), of_face);
   const PlateSnapshot& s = first(r);
   for (const double u : s.displacement.component[1]) BOOST_TEST_REQUIRE(u == 0);
   for (const auto* f :
@@ -750,7 +757,7 @@ BOOST_DATA_TEST_CASE(gauges_read_the_cells_beside_them, every_scheme* bdata::mak
   Stepping how = stepping(p, of_scene, scheme(which), 0.3, 40);
   for (how.sample_after.clear(); how.sample_after.size() < 40;)
     how.sample_after.push_back(static_cast<long>(how.sample_after.size()) + 1);
-  const PlateRecord r = mpm::run(p, of_scene, quarters, scheme(which), std::nullopt, how, of_face);
+  const PlateRecord r = run_spreading(p, of_scene, quarters, scheme(which), how, of_face);
   BOOST_REQUIRE(r.gauges.size() == readings.size());
   BOOST_REQUIRE(r.snapshots.size() == 40U);
   for (std::size_t g = 0; g < readings.size(); ++g) {
@@ -784,7 +791,7 @@ BOOST_DATA_TEST_CASE(gauges_read_the_cells_beside_them, every_scheme* bdata::mak
   BOOST_TEST(r.gauges[2].dilatancy.back() > 0);
   Plate silent = p;
   silent.gauges.clear();
-  const PlateRecord without = mpm::run(silent, of_scene, quarters, scheme(which), std::nullopt, how, of_face);
+  const PlateRecord without = run_spreading(silent, of_scene, quarters, scheme(which), how, of_face);
   BOOST_TEST(without.gauges.empty());
   BOOST_TEST((motion(without) == motion(r)));
 }
@@ -793,38 +800,32 @@ BOOST_DATA_TEST_CASE(gauges_read_the_cells_beside_them, every_scheme* bdata::mak
 // ---------------------------------------------------------------------------------------------------------
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
-  const auto refused = [](const Plate& p, const Spread& spread, const std::string& words,
-                          const std::optional<diffusion::Evolution>& cracks = std::nullopt) {
+  const auto refused = [](const Plate& p, const Spread& spread, const std::string& words) {
     Stepping how;
     how.time_step = 1e-9;
     how.steps = 1;
     BOOST_CHECK_EXCEPTION(
-        mpm::run(p, {8, 2}, quarters, Scheme::musl, cracks, how, spread), std::invalid_argument,
+        run_spreading(p, {8, 2}, quarters, Scheme::musl, how, spread), std::invalid_argument,
         [&](const std::invalid_argument& e) { return std::string(e.what()).find(words) != std::string::npos; });
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const material::FailureWave wave{glass, 1e9, 0.5};
   Plate p = plate(8, 2);
-  refused(p, diffusion::Spread{}, "needs a material with a failure wave");
-  p.material = wave;
-  refused(p, std::nullopt, "needs the spread of its dilatancy");
-  refused(p, diffusion::Spread{}, "a material with tensile damage", diffusion::Evolution{});
+  p.solid = solid::Failing{wave};
   refused(p, from_face(9), "face");
-  p.compression = material::Compression{1, 1};
-  refused(p, diffusion::Spread{}, "no plasticity in compression");
   p = plate(8, 2);
-  p.material = wave;
+  p.solid = solid::Failing{wave};
   p.convected = true;
   refused(p, diffusion::Spread{}, "convected with a failure wave");
   p = plate(8, 2);
-  p.material = material::FailureWave{{72.8e9, 0.222, 2563, material::Plane::stress}, 1e9, 0.5};
+  p.solid = solid::Failing{material::FailureWave{{72.8e9, 0.222, 2563, material::Plane::stress}, 1e9, 0.5}};
   refused(p, diffusion::Spread{}, "plane strain");
   for (const double part : {-0.1, 1.1, nan}) {
-    p.material = material::FailureWave{glass, 1e9, part};
+    p.solid = solid::Failing{material::FailureWave{glass, 1e9, part}};
     refused(p, diffusion::Spread{}, "between 0 and 1");
   }
   for (const double threshold : {-1.0, nan}) {
-    p.material = material::FailureWave{glass, threshold, 0.5};
+    p.solid = solid::Failing{material::FailureWave{glass, threshold, 0.5}};
     refused(p, diffusion::Spread{}, "threshold");
   }
 

@@ -194,8 +194,7 @@ reports::Run measured(const Case& c, const PlateRecord& record, const std::strin
 /// As it is without a failure wave.
 Case whole_solid() {
   Case c = failing_case();
-  c.plate->material = elastic_of(*c.plate);
-  c.plate->spread.reset();
+  c.plate->solid = solid::Elastic{elastic_of(*c.plate)};
   return c;
 }
 
@@ -275,7 +274,7 @@ BOOST_AUTO_TEST_CASE(theory_of_what_fails_is_the_closed_form) {
   const Case c = failing_case();
   for (const double f_max : {0.01, 0.5, 1.0}) {
     Case other = c;
-    std::get<material::FailureWave>(*other.plate->material).most_converted = f_max;
+    other.plate->failing()->law.most_converted = f_max;
     const Moduli m(elastic_of(*other.plate));
     const double strain = 1e9 / m.M;
     const ImpactTheory theory = impact_theory(*other.plate, 4e-3);
@@ -289,10 +288,10 @@ BOOST_AUTO_TEST_CASE(theory_of_what_fails_is_the_closed_form) {
   // Whatever the profile, as x²/d0.
   for (const auto profile : {diffusion::Profile::falling, diffusion::Profile::constant, diffusion::Profile::rising}) {
     Case other = c;
-    other.plate->spread->profile = profile;
+    other.plate->failing()->spread.profile = profile;
     const double once = impact_theory(*other.plate, 4e-3).failure;
     BOOST_TEST(impact_theory(*other.plate, 8e-3).failure == 4 * once, tt::tolerance(1e-10));
-    other.plate->spread->diffusivity = 2;
+    other.plate->failing()->spread.diffusivity = 2;
     BOOST_TEST(impact_theory(*other.plate, 4e-3).failure == 4 * once, tt::tolerance(1e-10));
     if (profile != diffusion::Profile::constant) BOOST_TEST(once != impact_theory(*c.plate, 4e-3).failure);
   }
@@ -301,8 +300,8 @@ BOOST_AUTO_TEST_CASE(theory_of_what_fails_is_the_closed_form) {
 BOOST_AUTO_TEST_CASE(what_does_not_fail_has_no_time_of_failure) {
   const auto with = [](double f_max, double d0, double velocity) {
     Case c = failing_case();
-    std::get<material::FailureWave>(*c.plate->material).most_converted = f_max;
-    c.plate->spread->diffusivity = d0;
+    c.plate->failing()->law.most_converted = f_max;
+    c.plate->failing()->spread.diffusivity = d0;
     c.plate->flyer->velocity = velocity;
     return impact_theory(*c.plate, 4e-3);
   };
@@ -576,7 +575,8 @@ BOOST_AUTO_TEST_CASE(a_strip_has_square_cells_on_every_mesh) {
     BOOST_TEST(plate.impact->gap == 2 * grid.hx, tt::tolerance(1e-15));
     BOOST_REQUIRE_EQUAL(plate.gauges.size(), 2u);
     BOOST_TEST((plate.gauges[1].x == 16e-3 + 6e-3 && plate.gauges[1].y == run.plate->height / 2));
-    BOOST_TEST((spread_of(run, cells)->face == cells * 2 / 5 && spread_of(run, cells)->start.empty()));
+    const diffusion::Spread spread = std::get<solid::Failing>(solid_of(run, cells)).spread;
+    BOOST_TEST((spread.face == cells * 2 / 5 && spread.start.empty()));
   }
 }
 

@@ -48,7 +48,7 @@ Record foreign_bars(const Scene& scene, const BarMesh& mesh, const Stepping& ste
   return record;
 }
 
-PlateRecord foreign_plate(const PlateScene& scene, const PlateMesh& mesh, const Stepping& stepping) {
+PlateRecord foreign_plate(const Plate& plate, const PlateMesh& mesh, const Stepping& stepping) {
   PlateRecord record;
   record.steps = stepping.steps;
   record.time = static_cast<double>(stepping.steps) * stepping.time_step;
@@ -64,7 +64,7 @@ PlateRecord foreign_plate(const PlateScene& scene, const PlateMesh& mesh, const 
       for (int i = 0; i < cells.x; ++i) {
         points.x.push_back((i + 0.5) * mesh.grid.hx);
         points.y.push_back((j + 0.5) * mesh.grid.hy);
-        points.weight.push_back(scene.plate.width * scene.plate.height / (cells.x * cells.y));
+        points.weight.push_back(plate.width * plate.height / (cells.x * cells.y));
       }
     }
     points.component.assign(2, std::vector<double>(points.x.size(), pull));

@@ -25,6 +25,8 @@ namespace tt = boost::test_tools;
 
 namespace {
 
+diffusion::Spread spread_of(const Case& c, int cells) { return std::get<solid::Failing>(solid_of(c, cells)).spread; }
+
 /// Damage and diffusion: every table, and every key of those that may stand together.
 const std::string whole = head("plate", "cross-code") + plate("1.0", "1.5") + R"toml(cell_aspect = 1.25
 [material]
@@ -381,21 +383,19 @@ BOOST_AUTO_TEST_CASE(every_key_of_a_damaging_plate_is_read) {
   BOOST_REQUIRE(c.plate.has_value());
   const PlateSpec& plate = *c.plate;
   BOOST_TEST((plate.width == 1.0 && plate.height == 1.5 && plate.cell_aspect == 1.25));
-  const auto& law = std::get<material::TensileDamage>(plate.material.value());
+  const material::TensileDamage& law = plate.cracking()->law;
   BOOST_TEST((law.elastic.youngs_modulus == 50e9 && law.elastic.poissons_ratio == 0.3 && law.elastic.density == 2500));
   BOOST_TEST((law.elastic.plane == material::Plane::strain));
   BOOST_TEST((law.fracture_toughness == 2e6 && law.flaw_density == 4e22 && law.exponent == 6.5 && law.beta == 0.5));
   BOOST_TEST((law.residual_stiffness == 0.01 && law.trace));
-  BOOST_REQUIRE(plate.compression.has_value());
-  BOOST_TEST((plate.compression->strength == 1e8 && plate.compression->slope == 0.5));
+  const auto& compression = plate.cracking()->compression;
+  BOOST_REQUIRE(compression.has_value());
+  BOOST_TEST((compression->strength == 1e8 && compression->slope == 0.5));
 
-  BOOST_REQUIRE(plate.evolution.has_value());
-  const diffusion::Evolution& evolution = *plate.evolution;
+  const diffusion::Evolution& evolution = plate.cracking()->evolution;
   BOOST_TEST((evolution.critical_strain == 0.003 && evolution.damage_everywhere));
   BOOST_TEST(evolution.cap == std::numeric_limits<double>::infinity());
   BOOST_TEST((evolution.rate == diffusion::Rate::reference && evolution.reference_rate == 200));
-  BOOST_TEST(evolution.crack_coefficient == law.crack_coefficient());  // eq. 23a, of this material
-  BOOST_TEST(evolution.exponent == 6.5);
   BOOST_REQUIRE(evolution.diffusion.has_value());
   const diffusion::Diffusion& d = *evolution.diffusion;
   BOOST_TEST((d.characteristic_time == 0.02 && d.mobility == 400 && d.crack_volume == 0.03));
@@ -457,7 +457,7 @@ BOOST_AUTO_TEST_CASE(every_key_of_a_damaging_plate_is_read) {
 BOOST_AUTO_TEST_CASE(every_key_of_a_mode_and_of_diffusion_alone_is_read) {
   BOOST_REQUIRE_EQUAL(message(elastic_mode), "");
   const Case mode = parse_case(elastic_mode, "plate.toml");
-  const auto& elastic = std::get<material::PlaneElastic>(mode.plate->material.value());
+  const auto& elastic = std::get<solid::Elastic>(mode.plate->solid.value()).law;
   BOOST_TEST((elastic.youngs_modulus == 1e4 && elastic.poissons_ratio == 0.25 && elastic.density == 4));
   BOOST_TEST((elastic.plane == material::Plane::stress));
   const PlateExact& exact = mode.plate->exact;
@@ -467,7 +467,7 @@ BOOST_AUTO_TEST_CASE(every_key_of_a_mode_and_of_diffusion_alone_is_read) {
 
   BOOST_REQUIRE_EQUAL(message(pure), "");
   const Case c = parse_case(pure, "plate.toml");
-  BOOST_TEST((!c.plate->material && !c.plate->evolution && c.plate->diffusion));
+  BOOST_TEST((!c.plate->solid && c.plate->diffusion));
   const PureDiffusion& d = *c.plate->diffusion;
   BOOST_TEST((d.diffusivity == "d*(1 + x*y)" && d.rate == "x*y*t" && d.corner_rate == -0.5));
   BOOST_TEST((d.scheme == diffusion::Scheme::crank_nicolson && d.reading == diffusion::Reading::radial));
@@ -488,10 +488,11 @@ BOOST_AUTO_TEST_CASE(what_is_left_out_is_as_said) {
   text = replaced(text, R"("pic", "damage", "diffusion", "compression-plasticity")", R"("damage", "diffusion")");
   BOOST_REQUIRE_EQUAL(message(text), "");
   const Case c = parse_case(text, "plate.toml");
-  const auto& law = std::get<material::TensileDamage>(c.plate->material.value());
-  BOOST_TEST((c.plate->cell_aspect == 1 && !c.plate->compression && c.plate->pic == 0 && !c.convected && c.ledger));
+  const material::TensileDamage& law = c.plate->cracking()->law;
+  BOOST_TEST((c.plate->cell_aspect == 1 && !c.plate->cracking()->compression && c.plate->pic == 0 && !c.convected &&
+              c.ledger));
   BOOST_TEST((law.beta == 1 && law.residual_stiffness == 1e-3 && !law.trace));
-  const diffusion::Evolution& evolution = *c.plate->evolution;
+  const diffusion::Evolution& evolution = c.plate->cracking()->evolution;
   BOOST_TEST((!evolution.damage_everywhere && evolution.cap == 9.0 / 16));
   BOOST_TEST((evolution.diffusion->per_crack_volume && evolution.diffusion->saturates));
   BOOST_TEST((evolution.diffusion->clip_strain && evolution.diffusion->drift == 0));
@@ -521,12 +522,12 @@ BOOST_AUTO_TEST_CASE(each_name_stands_for_its_own_value) {
                                                    {"sub-cycled", Scheme::sub_cycled},
                                                    {"backward-euler", Scheme::backward_euler},
                                                    {"crank-nicolson", Scheme::crank_nicolson}})
-    BOOST_TEST(
-        (good(replaced(whole, "drift = 0.1\n", ""), "\"rkl2\"", '"' + name + '"').plate->evolution->diffusion->scheme ==
-         scheme));
+    BOOST_TEST((good(replaced(whole, "drift = 0.1\n", ""), "\"rkl2\"", '"' + name + '"')
+                    .plate->cracking()
+                    ->evolution.diffusion->scheme == scheme));
   using diffusion::Source;
   const auto source = [](const std::string& name) {
-    return good(whole, "\"zone\"\nradius = 0.2", '"' + name + '"').plate->evolution->diffusion->source;
+    return good(whole, "\"zone\"\nradius = 0.2", '"' + name + '"').plate->cracking()->evolution.diffusion->source;
   };
   BOOST_TEST((source("node") == Source::node && source("everywhere") == Source::everywhere));
   BOOST_TEST(good(on_rollers(), "\"lame-mode\"", "\"roller-mode\"").plate->exact.solution == "roller-mode");
@@ -541,8 +542,8 @@ BOOST_AUTO_TEST_CASE(each_name_stands_for_its_own_value) {
                   "[model]\ndisplacements = \"finite\"\nfeatures = [\"convection\", \"elastic\"]")
                  .convected);
   const Case tracked = good(alone(), "\"reference\"\nreference_rate = 200", "\"tracked\"\nrate_floor = 5");
-  BOOST_TEST((tracked.plate->evolution->rate == diffusion::Rate::tracked));
-  BOOST_TEST(tracked.plate->evolution->rate_floor == 5);
+  BOOST_TEST((tracked.plate->cracking()->evolution.rate == diffusion::Rate::tracked));
+  BOOST_TEST(tracked.plate->cracking()->evolution.rate_floor == 5);
 }
 
 BOOST_AUTO_TEST_CASE(a_constant_diffusivity_may_be_a_number) {
@@ -869,12 +870,13 @@ BOOST_AUTO_TEST_CASE(a_variant_is_the_scene_with_some_keys_set_otherwise) {
   BOOST_REQUIRE_EQUAL(c.variants.size(), 1u);
   const PlateVariant& tracked = c.variants[0];
   BOOST_TEST((tracked.id == "tracked" && tracked.says == "the largest rate met"));
-  BOOST_TEST((tracked.plate.evolution->rate == diffusion::Rate::tracked && tracked.plate.evolution->rate_floor == 3));
-  BOOST_TEST((c.plate->evolution->rate == diffusion::Rate::reference));  // the scene itself stays
+  BOOST_TEST((tracked.plate.cracking()->evolution.rate == diffusion::Rate::tracked &&
+              tracked.plate.cracking()->evolution.rate_floor == 3));
+  BOOST_TEST((c.plate->cracking()->evolution.rate == diffusion::Rate::reference));  // the scene itself stays
   // All else is the same.
   BOOST_TEST((tracked.plate.width == 1 && tracked.plate.cell_aspect == 1.25 && tracked.plate.pic == 0.25));
   BOOST_TEST((tracked.plate.supports == c.plate->supports && tracked.plate.loads.size() == 3u));
-  BOOST_TEST(tracked.plate.evolution->diffusion->radius == 0.2);
+  BOOST_TEST(tracked.plate.cracking()->evolution.diffusion->radius == 0.2);
   BOOST_TEST(tracked.plate.exact.concentration == "x + y + t");
 
   const auto changed = [](const std::string& set) {
@@ -889,12 +891,13 @@ BOOST_AUTO_TEST_CASE(a_variant_is_the_scene_with_some_keys_set_otherwise) {
   BOOST_REQUIRE_EQUAL(pulled.loads.size(), 1u);  // the whole list is another
   BOOST_TEST((pulled.loads[0].history == "step" && pulled.loads[0].traction == "1"));
   const PlateSpec local = changed("without = [\"diffusion\"]");
-  BOOST_TEST((local.evolution.has_value() && !local.evolution->diffusion));
+  BOOST_TEST((local.cracking() && !local.cracking()->evolution.diffusion));
   BOOST_TEST(changed("without = [\"load\", \"body_force\", \"initial\"]").loads.empty());
-  BOOST_TEST(!changed("without = [\"material.compression\"]").compression);
+  BOOST_TEST(!changed("without = [\"material.compression\"]").cracking()->compression);
   BOOST_TEST(changed("set = { \"plate.height\" = 1.6 }").height == 1.6);
-  BOOST_TEST(changed("set = { \"material.compression.slope\" = 2 }").compression->slope == 2);  // of a table in a table
-  BOOST_TEST(changed("set = { \"material.compression.slope\" = 2 }").compression->strength == 1e8);
+  BOOST_TEST(changed("set = { \"material.compression.slope\" = 2 }").cracking()->compression->slope ==
+             2);  // of a table in a table
+  BOOST_TEST(changed("set = { \"material.compression.slope\" = 2 }").cracking()->compression->strength == 1e8);
   const PlateSpec held = changed("set = { \"supports.left\" = \"fixed\" }");
   BOOST_TEST((held.supports[0] == Edge::Support::fixed && held.supports[1] == Edge::Support::free));
   // A key that the scene lacks is made, its table too.
@@ -905,8 +908,9 @@ BOOST_AUTO_TEST_CASE(a_variant_is_the_scene_with_some_keys_set_otherwise) {
 
   const Leaf leaf{"fem", 10, 0.5, {}, {{"P", 6e8}}, "tracked"};
   const Case run = with_parameters(c, leaf);
-  BOOST_TEST((run.plate->evolution->rate == diffusion::Rate::tracked && run.parameters.at("P") == 6e8));
-  BOOST_TEST((with_parameters(c, {"fem", 10, 0.5, {}, {}, ""}).plate->evolution->rate == diffusion::Rate::reference));
+  BOOST_TEST((run.plate->cracking()->evolution.rate == diffusion::Rate::tracked && run.parameters.at("P") == 6e8));
+  BOOST_TEST((with_parameters(c, {"fem", 10, 0.5, {}, {}, ""}).plate->cracking()->evolution.rate ==
+              diffusion::Rate::reference));
   BOOST_TEST(parameters_label(leaf) == "tracked P=600000000");
   // Each combination is a run: FEM 4 meshes · 2 parameters · 2 variants, MPM the same for each of 2 arrangements.
   BOOST_TEST(leaves(c).size() == 48u);
@@ -1126,15 +1130,16 @@ BOOST_AUTO_TEST_CASE(every_key_of_a_failure_wave_is_read) {
   const Case c = parse_case(struck, "plate.toml");
   const PlateSpec& plate = *c.plate;
   BOOST_TEST((plate.width == 42e-3 && plate.rows == 2 && plate.cell_aspect == 1));
-  const auto& law = std::get<material::FailureWave>(plate.material.value());
+  const material::FailureWave& law = plate.failing()->law;
   BOOST_TEST((law.elastic.youngs_modulus == 72.8e9 && law.elastic.poissons_ratio == 0.222));
   BOOST_TEST((law.elastic.density == 2563 && law.elastic.plane == material::Plane::strain));
   BOOST_TEST((law.threshold == 2.75e9 && law.most_converted == 0.5));
-  BOOST_TEST((!plate.evolution && !plate.diffusion && !plate.face && !plate.compression));
-  BOOST_REQUIRE(plate.spread.has_value());
-  BOOST_TEST((plate.spread->diffusivity == 8 && plate.spread->profile == diffusion::Profile::rising));
-  BOOST_TEST((plate.spread->scheme == diffusion::Scheme::rkl2 && plate.spread->drift == 0.25));
-  BOOST_TEST(plate.spread->keeps_largest);
+  BOOST_TEST((!plate.diffusion && !plate.face));
+  BOOST_REQUIRE(plate.failing());
+  BOOST_TEST(
+      (plate.failing()->spread.diffusivity == 8 && plate.failing()->spread.profile == diffusion::Profile::rising));
+  BOOST_TEST((plate.failing()->spread.scheme == diffusion::Scheme::rkl2 && plate.failing()->spread.drift == 0.25));
+  BOOST_TEST(plate.failing()->spread.keeps_largest);
   BOOST_REQUIRE(plate.flyer.has_value());
   BOOST_TEST((plate.flyer->thickness == 18e-3 && plate.flyer->velocity == 684));
   BOOST_TEST((plate.flyer->gap == 2 && plate.flyer->gap_unit == "cells"));
@@ -1168,14 +1173,15 @@ BOOST_AUTO_TEST_CASE(every_key_of_a_failure_wave_is_read) {
 BOOST_AUTO_TEST_CASE(keys_of_a_struck_plate_have_usual_values) {
   const Case c = parse_case(
       without(struck, {"scheme = ", "drift = ", "face_holds", "gap = ", "bulk = ", "length = ", "acts = "}), "t");
-  BOOST_TEST((c.plate->spread->scheme == diffusion::Spread{}.scheme && c.plate->spread->drift == 0));
-  BOOST_TEST(!c.plate->spread->keeps_largest);
+  BOOST_TEST(
+      (c.plate->failing()->spread.scheme == diffusion::Spread{}.scheme && c.plate->failing()->spread.drift == 0));
+  BOOST_TEST(!c.plate->failing()->spread.keeps_largest);
   BOOST_TEST((c.plate->flyer->gap == 0 && c.plate->flyer->gap_unit == "m"));
   BOOST_TEST((c.plate->viscosity->bulk == 0.75 && !c.plate->viscosity->always));
   BOOST_TEST(c.plate->viscosity->length == std::sqrt(2.0), tt::tolerance(1e-15));
   for (const auto& [name, profile] :
        {std::pair{"falling", diffusion::Profile::falling}, std::pair{"constant", diffusion::Profile::constant}})
-    BOOST_TEST((good(struck, "\"rising\"", '"' + std::string(name) + '"').plate->spread->profile == profile));
+    BOOST_TEST((good(struck, "\"rising\"", '"' + std::string(name) + '"').plate->failing()->spread.profile == profile));
   BOOST_TEST((good(struck, "value = 2, unit = \"cells\"", "value = 1e-4, unit = \"m\"").plate->flyer->gap == 1e-4));
   // An impact face without a flyer, and what is there at the start.
   std::string alone = without(struck, {"gap = ", "thickness = ", "velocity = ", "from_face", "gauges = ["});
@@ -1187,7 +1193,7 @@ BOOST_AUTO_TEST_CASE(keys_of_a_struck_plate_have_usual_values) {
   BOOST_REQUIRE_EQUAL(message(alone), "");
   const Case held = parse_case(alone, "t");
   BOOST_TEST((held.plate->face == 6e-3 && held.plate->initial_concentration == "x*y" && !held.plate->flyer));
-  BOOST_TEST((spread_of(held, 14)->face == 2 && spread_of(held, 14)->start.size() == 15u * 3));
+  BOOST_TEST((spread_of(held, 14).face == 2 && spread_of(held, 14).start.size() == 15u * 3));
   expect_at(replaced(alone, "face = 6e-3", "face = 7e-3"), "[diffusion]",
             {"diffusion", "the impact face at 1.16667 cells of the mesh of 7 cells", "a column of nodes"});
   wrong(alone, "face = 6e-3", "face = 43e-3", {"diffusion.face", "found 0.043", "0 to 0.042 m"});
@@ -1353,7 +1359,7 @@ BOOST_AUTO_TEST_CASE(dilatancy_may_diffuse_alone) {
   BOOST_REQUIRE_EQUAL(message(alone), "");
   const Case c = parse_case(alone, "t");
   BOOST_REQUIRE(c.plate->diffusion->spread.has_value());
-  BOOST_TEST((c.plate->diffusion->spread->diffusivity == 8 && !c.plate->spread));
+  BOOST_TEST((c.plate->diffusion->spread->diffusivity == 8 && !c.plate->failing()));
   BOOST_TEST((c.plate->diffusion->spread->profile == diffusion::Profile::falling));
   BOOST_TEST(make_plane_exact(c)->name() == "face-front");
   says(replaced(alone, "d0 = 8.0", "d0 = 8.0\ndiffusivity = 1"), "diffusivity = 1",

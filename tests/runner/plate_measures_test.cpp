@@ -302,7 +302,7 @@ Plate askew() {
   Plate plate;
   plate.width = 2;
   plate.height = 3;
-  plate.material = material::PlaneElastic{1e4, 0.3, 2.0, material::Plane::strain};
+  plate.solid = solid::Elastic{{1e4, 0.3, 2.0, material::Plane::strain}};
   plate.edge(Side::left).support = Edge::Support::roller;
   plate.edge(Side::right).normal_traction = [](double from, double to) { return 2 * from + to; };
   plate.edge(Side::right).shear_traction = [](double from, double) { return 5 + from; };
@@ -518,7 +518,7 @@ BOOST_AUTO_TEST_CASE(damage_is_shown_on_the_nodes) {
   BOOST_TEST((shown.nx == 2 && shown.ny == 3 && shown.width == 1 && shown.height == 1.5));
   BOOST_TEST(shown.crack_density[0] == 0.2);
   BOOST_TEST(shown.crack_density[4] == 2.0);
-  const auto& law = std::get<material::TensileDamage>(*c.plate->material);
+  const material::TensileDamage& law = c.plate->cracking()->law;
   BOOST_TEST(shown.damage[0] == law.damage(0.2));
   BOOST_TEST(shown.damage[4] == law.damage(9.0 / 16));
   BOOST_TEST((shown.crack_density[1] == -0.05 && shown.damage[1] == 0 && shown.damage.size() == 12u));
@@ -699,7 +699,7 @@ BOOST_AUTO_TEST_CASE(a_solution_that_the_runs_do_not_follow_is_seen) {
 BOOST_AUTO_TEST_CASE(a_run_is_compared_with_others_where_a_gate_asks_for_it) {
   Case c = parse_case(cracking, "t.toml");
   c.axes[0].variant = {""};
-  c.plate->evolution->critical_strain = 1;  // never reached
+  c.plate->cracking()->evolution.critical_strain = 1;  // never reached
   c.gates.resize(2);
   c.gates[0].quantity = "bits.undamaged";
   c.gates[1].quantity = "cross.forward-euler";
@@ -708,8 +708,8 @@ BOOST_AUTO_TEST_CASE(a_run_is_compared_with_others_where_a_gate_asks_for_it) {
     BOOST_TEST(run.measures.at("bits.undamaged") == 0);
     BOOST_TEST(!run.measures.contains("cross.forward-euler"));  // of zeros
     Case cracked = c;
-    cracked.plate->evolution->critical_strain = 0.002;
-    cracked.plate->evolution->diffusion->scheme = diffusion::Scheme::crank_nicolson;
+    cracked.plate->cracking()->evolution.critical_strain = 0.002;
+    cracked.plate->cracking()->evolution.diffusion->scheme = diffusion::Scheme::crank_nicolson;
     run = run_leaf(cracked, leaf);
     BOOST_TEST(run.measures.at("bits.undamaged") > 0);
     // Two schemes of unlike order on one staggering: once resolved, their difference goes with the time step.
@@ -838,10 +838,10 @@ BOOST_AUTO_TEST_CASE(forward_euler_beside_the_wave_shortens_the_step) {
   const Leaf leaf = leaves(c)[0];
   const TimeStep before = step_of(c, leaf);
   BOOST_TEST(before.asked == 0.5 * before.unit);
-  c.plate->evolution->diffusion->scheme = diffusion::Scheme::forward_euler;
+  c.plate->cracking()->evolution.diffusion->scheme = diffusion::Scheme::forward_euler;
   const TimeStep same = step_of(c, leaf);
   BOOST_TEST(same.asked == std::min(before.asked, 0.0625 / (4 * 500)), tt::tolerance(1e-14));
-  c.plate->evolution->diffusion->mobility = 1e6;
+  c.plate->cracking()->evolution.diffusion->mobility = 1e6;
   BOOST_TEST(step_of(c, leaf).asked == 0.0625 / 4e6, tt::tolerance(1e-14));
   BOOST_TEST(step_of(c, leaf).limit == before.limit);
 }

@@ -1,0 +1,152 @@
+// The books of the plate: energies and momentum, step by step.
+//
+// With Fⁿ = −Σ A Bᵀσⁿ, the kick changes the kinetic energy by the work of the loads less ½ Σ A σⁿ:(εⁿ⁺¹ − εⁿ⁻¹). With
+// the energy ψ of what can be got back and
+//   Sⁿ⁺½ = Σ A [ψⁿ + ½ σⁿ:(εⁿ⁺¹ − εⁿ)]
+// this is −Sⁿ⁺½ + Sⁿ⁻½ − Dⁿ, where Dⁿ = Sⁿ⁻½ − Σ A [ψⁿ − ½ σⁿ:(εⁿ − εⁿ⁻¹)] is nothing for a linear solid. Of it the
+// material takes what damage takes at the least, the smaller of ψ(ε; C_dⁿ⁻¹) − ψ(ε; C_dⁿ) at both ends of the step,
+// and what flows, σⁿ:Δε_p: neither is ever negative. The rest is what the trapezium of the leapfrog misses of the
+// path between two steps, where cracks close, crack or flow in between: the scheme's.
+//
+// A failure wave has an energy, but its stress is not that energy's derivative, and neither is that of cracks which
+// close whole: all of Dⁿ is the material's, and of either sign.
+#pragma once
+
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "fem/plate_border.hpp"
+#include "fem/plate_material.hpp"
+#include "fem/plate_mesh.hpp"
+#include "fem/plate_viscosity.hpp"
+#include "hinge/scene/scene.hpp"
+#include "hinge/step/ledger.hpp"
+
+namespace diptych::fem {
+
+/// The ledger has one number for a vector: its component along the diagonal.
+inline double along_diagonal(const Vector& v) { return (v[0] + v[1]) / std::sqrt(2.0); }
+
+template <solid::PlaneModel Model>
+class PlateBooks {
+ public:
+  PlateBooks(const Mesh& mesh, const Rows& rows, const Border& border, const CellStress& stress,
+             const PlateMaterial<Model>& material, std::optional<ArtificialViscosity>& viscosity, double dt, bool kept)
+      : mesh_(mesh),
+        rows_(rows),
+        border_(border),
+        stress_(stress),
+        material_(material),
+        viscosity_(viscosity),
+        dt_(dt),
+        sums_(mesh.ny + 1) {
+    if (Model::linear || !kept) return;
+    recoverable_.resize(mesh.cells());
+    own_before_.resize(mesh.cells());
+  }
+
+  double energy() const {
+    double sum = 0;
+    for (Index cell = 0; cell < mesh_.cells(); ++cell) {
+      const Triangles strain = mesh_.strain(cell);
+      for (Index t = 0; t < 4; ++t) sum += mesh_.h.triangle_area() * material_.stored(cell, t, strain[t]);
+    }
+    return sum + mesh_.motion().kinetic;
+  }
+
+  /// Work and impulse of loads and of what holds or drives the sides, once the nodes have moved.
+  void keep_work(double kick, Ledger& ledger) const {
+    const auto [before, after, force] = border_.external_work(kick);
+    ledger.before_kick(before, along_diagonal(force), kick);
+    ledger.after_kick(after, kick);
+  }
+
+  /// At σⁿ, εⁿ⁺¹ and vⁿ⁺½.
+  void measure_energies(Ledger& ledger) {
+    rows_.for_each([&](Index j) {
+      RowSums row{mesh_.motion(j)};
+      for (Index cell = j * mesh_.nx; cell < (j + 1) * mesh_.nx; ++cell) row.strain += recoverable(cell);
+      sums_[j] = row;
+    });
+    sums_[mesh_.ny] = {mesh_.motion(mesh_.ny)};
+    if (!Model::linear && ledger.keeps()) own_before_ = stress_.own;
+    if (viscosity_) ledger.take_by_viscosity(viscosity_->work(dt_));
+  }
+
+  /// At σⁿ⁺¹, εⁿ⁺¹ and vⁿ⁺½.
+  void close(Ledger& ledger) {
+    RowSums sum;
+    for (const RowSums& row : sums_) {
+      sum.motion.add(row.motion);
+      sum.strain += row.strain;
+    }
+    const double between = !Model::linear && ledger.keeps() ? dissipation() : 0;  // Dⁿ⁺¹
+    Taken all;
+    for (const Taken& row : material_.taken()) {
+      all.by_damage += mesh_.h.triangle_area() * row.by_damage;
+      all.by_flow += mesh_.h.triangle_area() * row.by_flow;
+    }
+    const bool has_potential = material_.model().has_potential();
+    const double taken = has_potential ? all.by_damage + all.by_flow : between;
+    const double spent = !Model::only_takes ? 0 : has_potential ? all.by_damage : between;
+    const double viscous_after = viscosity_ ? viscosity_->work(dt_) : 0;
+    ledger.close_line(sum.motion.kinetic, sum.strain, taken, along_diagonal(sum.motion.momentum), -viscous_after / 2,
+                      spent);
+    ledger.take_by_scheme(between - taken);
+    ledger.take_by_viscosity(viscous_after);
+  }
+
+  Index bytes() const {
+    return sums_.capacity() * sizeof(RowSums) + recoverable_.capacity() * sizeof(double) + own_before_.capacity();
+  }
+
+ private:
+  /// Of a row of cells and of the nodes at its middle and bottom.
+  struct RowSums {
+    Motion motion;
+    double strain = 0, dissipated = 0;
+  };
+
+  /// Sⁿ⁺½ of a cell [J/m].
+  double recoverable(Index cell) {
+    const Triangles now = mesh_.strain(cell), rate = mesh_.strain_rate(cell);
+    double sum = 0;
+    for (Index t = 0; t < 4; ++t) sum += energy_between(cell, t, now[t] - rate[t] * dt_, now[t]);
+    if (!recoverable_.empty()) recoverable_[cell] = sum;
+    return sum;
+  }
+  /// A [ψ + ½ σ:(ε − ε here)] of a triangle, ψ and σ where it stands, at the strain `here` [J/m].
+  double energy_between(Index cell, Index t, const material::Tensor& here, const material::Tensor& strain) const {
+    const material::Tensor stress = material_.stress(cell, t, here);
+    return mesh_.h.triangle_area() * (material_.stored(cell, t, here) + stress.contract(strain - here) / 2);
+  }
+  double dissipation() {
+    rows_.for_each([&](Index j) {
+      sums_[j].dissipated = 0;
+      for (Index cell = j * mesh_.nx; cell < (j + 1) * mesh_.nx; ++cell) {
+        if (!stress_.is_own(cell) && !own_before_[cell]) continue;
+        const Triangles now = mesh_.strain(cell), rate = mesh_.strain_rate(cell);
+        double left = 0;
+        for (Index t = 0; t < 4; ++t) left += energy_between(cell, t, now[t], now[t] - rate[t] * dt_);
+        sums_[j].dissipated += recoverable_[cell] - left;
+      }
+    });
+    double sum = 0;
+    for (const RowSums& row : sums_) sum += row.dissipated;
+    return sum;
+  }
+
+  const Mesh& mesh_;
+  const Rows& rows_;
+  const Border& border_;
+  const CellStress& stress_;
+  const PlateMaterial<Model>& material_;
+  std::optional<ArtificialViscosity>& viscosity_;
+  double dt_;
+  std::vector<RowSums> sums_;              // per row, and the top row of nodes
+  std::vector<double> recoverable_;        // per cell, where the solid may change [J/m]
+  std::vector<unsigned char> own_before_;  // likewise: CellStress::own before the step's update
+};
+
+}  // namespace diptych::fem

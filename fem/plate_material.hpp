@@ -1,0 +1,119 @@
+// The plate's solid on the mesh: four points a cell, the triangles.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "fem/plate_mesh.hpp"
+#include "fem/plate_stress.hpp"
+#include "hinge/scene/plate.hpp"
+#include "hinge/solid/plane_model.hpp"
+
+namespace diptych::fem {
+
+/// What the material has taken in a step [J/m³].
+struct Taken {
+  double by_damage = 0, by_flow = 0;
+};
+
+template <solid::PlaneModel Model>
+class PlateMaterial {
+ public:
+  /// stress: of the cells, kept up to date by update_stress; books: `taken` will be asked for.
+  template <class Solid>
+  PlateMaterial(const Solid& solid, const Mesh& mesh, const Rows& rows, CellStress& stress, bool viscous, bool books)
+      : mesh_(mesh),
+        rows_(rows),
+        stress_(stress),
+        model_(solid, {static_cast<int>(mesh.nx), static_cast<int>(mesh.ny), mesh.h.x, mesh.h.y}, 4 * mesh.cells()) {
+    if (!Model::linear || viscous) {
+      stress_.stress.resize(mesh.cells());
+      stress_.own.resize(mesh.cells());
+    }
+    if (!Model::linear && books) taken_.resize(mesh.ny);
+    if (Model::staggered) driver_.resize(mesh.cells());
+  }
+
+  /// Eqs. 23 to 28, staggered: the cells' mean strains at the end of the step give what changes in cells.
+  void advance(double dt) {
+    rows_.for_each([&](Index j) {
+      for (Index cell = j * mesh_.nx; cell < (j + 1) * mesh_.nx; ++cell)
+        driver_[cell] = model_.driver(mesh_.mean_strain(cell));
+    });
+    model_.advance(driver_, dt);
+  }
+
+  /// Stresses of all cells at uⁿ. keeps_books: also what damage and flow take, in the step of dt that ends there.
+  void update_stress(double dt, bool keeps_books) {
+    rows_.for_each([&](Index j) {
+      Taken taken;
+      const bool counts = !Model::linear && keeps_books;
+      for (Index cell = j * mesh_.nx; cell < (j + 1) * mesh_.nx; ++cell) {
+        renew(cell, dt, counts && model_.has_potential(), taken);
+        stress_.own[cell] = update_cell(cell, taken);
+      }
+      if (counts) taken_[j] = taken;
+    });
+  }
+
+  /// ψ of a triangle at a strain [J/m³].
+  double stored(Index cell, Index t, const material::Tensor& strain) const {
+    if (!Model::yields && model_.whole(cell, 0)) return stress_.solid.stress(strain).contract(strain) / 2;
+    return model_.stored(strain, cell, 4 * cell + t);
+  }
+  /// Stress that stands, in a cell of its own, or else of the whole solid at the strain `here` [Pa].
+  material::Tensor stress(Index cell, Index t, const material::Tensor& here) const {
+    return stress_.is_own(cell) ? stress_.stress[cell][t] : stress_.solid.stress(here);
+  }
+  const std::vector<Taken>& taken() const { return taken_; }  ///< of rows, in the last update with books
+  const Model& model() const { return model_; }
+  Index bytes() const {
+    return model_.bytes() + driver_.capacity() * sizeof(double) + taken_.capacity() * sizeof(Taken);
+  }
+
+ private:
+  /// ψ of each triangle where the last step began and where it ended [J/m³].
+  std::array<std::array<double, 2>, 4> stored_along(Index cell, double dt) const {
+    const Triangles now = mesh_.strain(cell), rate = mesh_.strain_rate(cell);
+    std::array<std::array<double, 2>, 4> energy{};
+    for (Index t = 0; t < 4; ++t) energy[t] = {stored(cell, t, now[t] - rate[t] * dt), stored(cell, t, now[t])};
+    return energy;
+  }
+
+  /// What has changed in a cell takes effect: the least that it can have taken is the smaller of the two falls of ψ.
+  void renew(Index cell, double dt, bool counts, Taken& taken) {
+    if (!model_.outdated(cell)) return;
+    if (!counts) return model_.renew(cell);
+    const auto before = stored_along(cell, dt);
+    model_.renew(cell);
+    const auto after = stored_along(cell, dt);
+    for (Index t = 0; t < 4; ++t) taken.by_damage += std::min(before[t][0] - after[t][0], before[t][1] - after[t][1]);
+  }
+
+  /// 0 where the stresses are those of the whole solid, which are not kept.
+  unsigned char update_cell(Index cell, Taken& taken) {
+    if (!Model::yields && model_.whole(cell, 0)) return 0;
+    const auto law = model_.row(cell, 4 * cell);
+    Triangles stress = mesh_.strain(cell);
+    bool whole = true;
+    for (Index t = 0; t < 4; ++t) {
+      double dissipated = 0;
+      stress[t] = law.stress(stress[t], 0, t, dissipated);
+      taken.by_flow += dissipated;
+      whole = whole && model_.whole(cell, 4 * cell + t);
+    }
+    if (whole) return 0;
+    stress_.stress[cell] = stress;
+    return 1;
+  }
+
+  const Mesh& mesh_;
+  const Rows& rows_;
+  CellStress& stress_;
+  Model model_;
+  std::vector<double> driver_;  // of cells
+  std::vector<Taken> taken_;    // of rows
+};
+
+}  // namespace diptych::fem

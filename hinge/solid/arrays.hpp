@@ -1,0 +1,52 @@
+// Tensors of a plate's points and stiffnesses of its cells, one array a component: what loops over rows of cells read.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "hinge/material/plane.hpp"
+
+namespace diptych {
+
+/// `count` zeros, with a little room to spare where arrays of this length that are allocated one after the other would
+/// begin a whole multiple of 64 KiB apart: all of them would fall on the same few lines of the caches.
+inline void allocate(std::vector<double>& values, std::size_t count) {
+  constexpr std::size_t cycle = 8192, near = 1024;  // in numbers
+  const std::size_t clash = (count + near) % cycle < 3 * near && count > cycle ? 4 * near : 0;
+  values.reserve(count + clash);
+  values.assign(count, 0);
+}
+
+/// A symmetric tensor on every point.
+struct TensorField {
+  std::vector<double> xx, yy, xy;
+  void resize(std::size_t count) {
+    for (auto* component : {&xx, &yy, &xy}) allocate(*component, count);
+  }
+  material::Tensor operator[](std::size_t p) const { return {xx[p], yy[p], xy[p]}; }
+  std::size_t bytes() const { return (xx.capacity() + yy.capacity() + xy.capacity()) * sizeof(double); }
+};
+
+/// A stiffness of every cell.
+struct StiffnessField {
+  std::vector<double> normal, cross, shear;
+  void assign(std::size_t count, const material::Stiffness& all) {
+    normal.assign(count, all.normal);
+    cross.assign(count, all.cross);
+    shear.assign(count, all.shear);
+  }
+  void set(std::size_t k, const material::Stiffness& s) {
+    normal[k] = s.normal, cross[k] = s.cross, shear[k] = s.shear;
+  }
+  material::Stiffness operator[](std::size_t k) const { return {normal[k], cross[k], shear[k]}; }
+  std::size_t bytes() const { return (normal.capacity() + cross.capacity() + shear.capacity()) * sizeof(double); }
+};
+
+/// A row of cells of it, as plain addresses.
+struct StiffnessRow {
+  const double *normal = nullptr, *cross = nullptr, *shear = nullptr;
+  StiffnessRow(const StiffnessField& field, std::size_t first)
+      : normal(field.normal.data() + first), cross(field.cross.data() + first), shear(field.shear.data() + first) {}
+};
+
+}  // namespace diptych
