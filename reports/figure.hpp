@@ -4,11 +4,10 @@
 #include <filesystem>
 #include <string>
 
+#include "reports/drawn.hpp"
 #include "reports/results.hpp"
 
 namespace diptych::reports {
-
-enum class Drawn { yes, gnuplot_missing, gnuplot_failed };
 
 /// Writes ID.csv and ID.gp to `directory` (created if missing), runs gnuplot on the script for ID.svg and checks its
 /// status and output. Without gnuplot the script and the data are still written; an older ID.svg is removed, so that

@@ -148,116 +148,12 @@ std::string complaint(const Outcome& outcome, const fs::path& svg) {
 
 }  // namespace
 
-std::size_t characters(std::string_view text) {  // UTF-8 code points
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
-}
-
-/// Breaks at spaces into lines of at most so many pixels, where words allow.
-std::vector<std::string> lines_of(const std::string& text, double pixels, double per_character) {
-  const auto limit = static_cast<std::size_t>(pixels / per_character);
-  std::vector<std::string> lines;
-  std::string line;
-  std::size_t used = 0;
-  for (std::size_t at = 0; at <= text.size();) {
-    const std::size_t end = std::min(text.find_first_of(" \n\r\t", at), text.size());
-    const std::string word = text.substr(at, end - at);
-    const std::size_t length = characters(word);
-    if (used > 0 && used + 1 + length > limit) {
-      lines.push_back(std::exchange(line, ""));
-      used = 0;
-    }
-    if (used > 0 && length > 0) line += ' ', ++used;
-    line += word;
-    used += length;
-    at = end + 1;
-  }
-  if (!line.empty()) lines.push_back(line);
-  return lines;
-}
-
-double Heading::height() const {
-  return title_line * static_cast<double>(title.size()) + note_line * static_cast<double>(notes.size());
-}
-
-Heading heading_of(const std::string& title, const std::vector<std::string>& notes, double pixels) {
-  Heading heading{lines_of(title, pixels, title_char), {}};
-  for (const std::string& note : notes)
-    for (std::string& line : lines_of(note, pixels, note_char)) heading.notes.push_back(std::move(line));
-  return heading;
-}
-
-std::string quoted(const std::string& text) {
-  std::string out = "'";
-  for (const char c : text) {
-    if (c == '\'') out += '\'';
-    out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-  }
-  return out + "'";
-}
-
-std::string marked(const std::string& text) {
-  const auto in_word = [&](std::size_t i) {
-    return i < text.size() && (std::isalnum(static_cast<unsigned char>(text[i])) != 0 || text[i] == '_');
-  };
-  // Where the letter before text[i] begins, Greek ones having two bytes; none: i.
-  const auto letter_before = [&](std::size_t i) {
-    if (i >= 1 && std::isalpha(static_cast<unsigned char>(text[i - 1])) != 0) return i - 1;
-    if (i >= 2 && (text[i - 2] == '\xce' || text[i - 2] == '\xcf')) return i - 2;
-    return i;
-  };
-  std::string out;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    std::size_t end = i + 1;
-    while (text[i] == '_' && in_word(end) && text[end] != '_') ++end;
-    const std::size_t start = letter_before(i), length = end - i - 1;
-    if (length >= 1 && length <= 4 && start < i && (start == 0 || !in_word(start - 1)) && !in_word(end)) {
-      out += "_{" + text.substr(i + 1, length) + "}";
-      if (end < text.size() && text[end] == ' ') out += "\u200b";  // or readers of SVG drop a span's leading space
-      i = end - 1;
-      continue;
-    }
-    if (std::string_view("\\^_@&~{}").find(text[i]) != std::string_view::npos) out += '\\';
-    out += text[i];
-  }
-  return reports::quoted(out);
-}
-
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + "\"";
-}
-
-std::string csv_note(const std::string& key, std::string value) {
-  std::replace_if(
-      value.begin(), value.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
-  return "# " + key + ": " + value + "\n";
-}
-
-std::string csv_number(double value) { return std::isnan(value) ? std::string("nan") : fmt::format("{}", value); }
-
 void check_id(const std::string& id) {
   constexpr std::string_view allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.";
   if (id.empty() || id.front() == '.' || id.front() == '-' || id.find_first_not_of(allowed) != std::string::npos)
     throw std::invalid_argument(
         "figure '" + id +
         "': an id names files: letters, digits, '_', '-' and '.', starting with a letter, digit or '_'");
-}
-
-void begin_page(std::ostream& gp, const std::string& id, double width, double height, bool enhanced) {
-  gp << "# " << id << ": stand-alone, data included; 'gnuplot " << id << ".gp' writes " << id << ".svg beside it.\n"
-     << "set encoding utf8\n"
-     << fmt::format("set terminal svg {} rounded size {:.0f},{:.0f}", enhanced ? "enhanced" : "noenhanced", width,
-                    height)
-     << " font 'sans-serif,12' background rgb '#ffffff'\n"
-     << "if (!exists('output_file')) {\n"
-     << "  slash = 0\n"
-     << "  if (exists('ARG0')) { do for [i=1:strlen(ARG0)] { if (ARG0[i:i] eq '/') { slash = i } } }\n"
-     << "  output_file = (slash > 0 ? ARG0[1:slash] : '') . '" << id << ".svg'\n"
-     << "}\n"
-     << "set output output_file\n\n";
 }
 
 void send_points(std::ostream& gp, const std::vector<std::pair<double, double>>& points) {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "reports/figure.hpp"
+#include "reports/drawn.hpp"
 #include "reports/plate_results.hpp"
 
 namespace diptych::reports {

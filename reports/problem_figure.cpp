@@ -7,8 +7,10 @@
 #include <ostream>
 #include <stdexcept>
 
+#include "reports/csv.hpp"
 #include "reports/gnuplot.hpp"
 #include "reports/plate_figure.hpp"
+#include "reports/sheet.hpp"
 
 namespace diptych::reports {
 namespace {
@@ -292,15 +294,9 @@ void write_script(std::ostream& gp, const ProblemFigure& figure) {
      << "set lmargin at screen 0; set rmargin at screen 1; set tmargin at screen 1; set bmargin at screen 0\n"
      << "unset border; unset tics; unset key; set datafile separator ','\n"
      << fmt::format("set xrange [0:{:.0f}]; set yrange [{:.0f}:0]\n", page, layout.height);
-  double y = margin;
-  for (const std::string& line : layout.heading.title) {
-    canvas.text(line, {edge, y + 8}, "left font ',16' textcolor rgb '#111111'");
-    y += title_line;
-  }
-  for (const std::string& line : layout.heading.notes) {
-    canvas.text(line, {edge, y + 5}, "left font ',11' textcolor rgb '#666666'");
-    y += note_line;
-  }
+  write_heading(layout.heading, [&](const std::string& line, double y, const char* style) {
+    canvas.text(line, {edge, y}, style);
+  });
   write_mesh(gp, layout, figure);
   draw_weak_zone(canvas, layout, figure);
   for (std::size_t side = 0; side < 4; ++side) {
@@ -336,8 +332,7 @@ void write_script(std::ostream& gp, const ProblemFigure& figure) {
 // ---- the data
 
 std::string csv_of(const ProblemFigure& figure) {
-  std::string out = csv_note("figure", figure.id) + csv_note("title", figure.title);
-  for (const std::string& note : figure.notes) out += csv_note("note", note);
+  std::string out = csv_heading(figure.id, figure.title, figure.notes);
   out += "part,quantity,value\n";
   const auto row = [&](const char* part, const char* quantity, const std::string& value) {
     out += std::string(part) + "," + quantity + "," + csv_field(value) + "\n";

@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
+#include "reports/field_results.hpp"
 #include "reports/look.hpp"
-#include "reports/page.hpp"
+#include "reports/page_results.hpp"
 #include "reports/plate_results.hpp"
-#include "reports/vtu.hpp"
 
 namespace diptych::reports {
 

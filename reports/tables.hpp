@@ -1,21 +1,12 @@
-// Convergence tables: cost beside error, order, prediction and ratio.
+// Convergence tables as text, CSV and LaTeX: cost beside error, order, prediction and ratio.
 #pragma once
 
 #include <string>
-#include <vector>
 
+#include "reports/order_fit.hpp"
 #include "reports/results.hpp"
 
 namespace diptych::reports {
-
-/// Least-squares slope of log(error) against log(h) and its standard error; the sign is kept.
-struct Fit {
-  double order = 0;
-  double standard_error = 0;  ///< NaN with two points, which leave nothing to judge the slope by
-  int levels = 0;             ///< points fitted
-};
-/// Needs at least two distinct h and positive finite errors; throws std::invalid_argument otherwise.
-Fit fit_order(const std::vector<double>& cell_sizes, const std::vector<double>& errors);
 
 /// Aligned text of at most 150 columns for the terminal: for each method, particle layout and Courant number first
 /// the cost of every mesh, then for each time and field the errors, their orders, predictions and ratios.

@@ -9,8 +9,8 @@
 #include <map>
 #include <sstream>
 
+#include "runner/app/case_file.hpp"
 #include "runner/app/provenance.hpp"
-#include "runner/input/case_file.hpp"
 
 namespace diptych::runner {
 namespace {

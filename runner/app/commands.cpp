@@ -14,13 +14,15 @@
 
 #include "reports/figure.hpp"
 #include "reports/files.hpp"
+#include "reports/page.hpp"
 #include "reports/plate_figure.hpp"
 #include "reports/tables.hpp"
+#include "reports/vtu.hpp"
+#include "runner/app/case_file.hpp"
 #include "runner/app/catalogue.hpp"
 #include "runner/app/provenance.hpp"
-#include "runner/draw/figures.hpp"
+#include "runner/draw/figure_kinds.hpp"
 #include "runner/input/build.hpp"
-#include "runner/input/case_file.hpp"
 #include "runner/input/plate_build.hpp"
 #include "runner/judge/gates.hpp"
 #include "runner/run/runner.hpp"
@@ -270,21 +272,7 @@ int run_command(const Options& options, const std::atomic<bool>& cancelled) {
   const auto cases = select_cases(options.selectors);
   prepare(options.out);
   auto results = measure(cases, options, Purpose::show, cancelled);
-  for (auto& result : results) {
-    for (auto& figure : result.figures) figure.id = result.id + "." + figure.id;  // two cases may call theirs the same
-    for (auto& figure : result.problem_figures) figure.id = result.id + "." + figure.id;
-    for (auto& figure : result.plate_figures) figure.id = result.id + "." + figure.id;
-    for (auto& [name, page] : result.pages) {
-      name = result.id + "." + name;
-      const auto rename = [&](std::string& picture) {
-        if (!picture.empty()) picture = result.id + "." + picture;
-      };
-      for (auto& section : page.sections) {
-        rename(section.picture);
-        for (auto& row : section.rows) rename(row.picture);
-      }
-    }
-  }
+  for (auto& result : results) name_after_case(result);  // two cases may call their figures the same
   for (const auto& result : results) {
     fmt::print("{}\n", reports::text_table(result));
     write_tables(result, options.out / "tables");
@@ -350,102 +338,6 @@ int list_command(const Options& options) {
                c.paper_figures.empty() ? "" : fmt::format("  [paper: Fig. {}]", listed(c.paper_figures)));
     for (const GateSpec& gate : c.gates)
       fmt::print("    {:24} {:10} {}{}\n", gate.id, gate.kind, gate.quantity, gate.slow ? "  (slow)" : "");
-  }
-  return all_passed;
-}
-
-namespace {
-
-/// " for 1 L/c from 0 s": when a load acts.
-std::string timing(const LoadSpec& load) {
-  std::string text;
-  if (load.history == "impulse") text += fmt::format(" for {:g} {}", load.duration.value, load.duration.unit);
-  if (load.history == "ramp") text += fmt::format(" over {:g} {}", load.rise.value, load.rise.unit);
-  if (load.start.value > 0) text += fmt::format(" from {:g} {}", load.start.value, load.start.unit);
-  return text;
-}
-
-void show_runs(const Case& c) {
-  fmt::print("  runs       {}\n", leaves(c).size());
-  for (const Leaf& leaf : leaves(c)) {
-    fmt::print("             {} {} cells, Courant {:g}{}{}\n", leaf.method, leaf.cells, leaf.courant,
-               leaf.particles.empty() ? "" : ", particles at " + particles_label(leaf.particles),
-               parameters_label(leaf).empty() ? "" : ", " + parameters_label(leaf));
-  }
-}
-
-void show_plate(const Case& c) {
-  fmt::print("{}: {}\n  file       {}\n  claim      {}\n  why        {}\n  plate      {}\n", c.id, c.title,
-             c.path.string(), c.claim, c.why, words_of(*c.plate));
-  if (c.plate->solid) {
-    fmt::print("  supports  ");
-    for (std::size_t side = 0; side < 4; ++side)
-      fmt::print(" {} {}{}", side_names[side], support_names[static_cast<std::size_t>(c.plate->supports[side])],
-                 side < 3 ? "," : "\n");
-  }
-  for (const SideLoad& load : c.plate->loads)
-    fmt::print("  load       {} {} on the {} side, traction {}{}\n", load.history, load.shear ? "shear" : "normal",
-               side_names[static_cast<std::size_t>(load.side)], load.traction,
-               load.history == "ramp" ? fmt::format(", over {:g} s", load.rise) : "");
-  if (const auto& flyer = c.plate->flyer)
-    fmt::print("  flyer      {:g} m thick at {:g} m/s, a gap of {:g} {}\n", flyer->thickness, flyer->velocity,
-               flyer->gap, flyer->gap_unit);
-  for (const auto& [feature, key] : plate_features(c)) fmt::print("  uses       {}: {}\n", feature, key);
-  for (const auto& [name, value] : c.parameters) fmt::print("  parameter  {} = {:g}\n", name, value);
-  for (const PlateVariant& variant : c.variants) fmt::print("  variant    {}: {}\n", variant.id, variant.says);
-  fmt::print("  exact      {}\n  features   {}\n  sampled    t = {} s\n", c.plate->exact.solution, listed(c.features),
-             listed(c.times));
-  show_runs(c);
-  for (const PlateProbe& probe : c.plate_probes) fmt::print("  probe      {} {}\n", probe.id, probe.reads);
-  for (const GaugeSpec& gauge : c.gauges)
-    fmt::print("  gauge      {}, {:g} m from the impact face\n", gauge.id, gauge.from_face);
-  for (const GateSpec& gate : c.gates) fmt::print("  gate       {:24} {}\n", gate.id, gate.declaration);
-  for (const FigureSpec& figure : c.figures) fmt::print("  figure     {}\n", figure.id);
-}
-
-}  // namespace
-
-int show_command(const Options& options) {
-  for (const Case& c : select_cases(options.selectors)) {
-    if (c.plate) {
-      show_plate(c);
-      continue;
-    }
-    const auto end_text = [](Support s) { return s == Support::fixed ? "fixed" : "free"; };
-    fmt::print("{}: {}\n  file       {}\n  claim      {}\n  why        {}\n", c.id, c.title, c.path.string(), c.claim,
-               c.why);
-    for (std::size_t b = 0; b < c.bars.size(); ++b) {
-      const BarSpec& bar = c.bars[b];
-      fmt::print("  bar        {}, wave speed {:g}{}{}\n", words_of(bar), material::wave_speed(bar.material),
-                 b == 0 ? "" : fmt::format(", after a gap of {:g} {}", bar.gap.value, bar.gap.unit),
-                 bar.velocity.empty() ? "" : ", velocity " + bar.velocity);
-    }
-    fmt::print("  all        {} units, {}–{}, {} displacements\n", c.units, end_text(c.left), end_text(c.right),
-               c.convected ? "finite" : "infinitesimal");
-    for (const auto& [name, value] : c.parameters) fmt::print("  parameter  {} = {:g}\n", name, value);
-    if (c.viscosity) fmt::print("  viscosity  {}\n", words_of(viscosity_of(c)));
-    if (c.contact == Contact::bonded) fmt::print("  contact    bonded (FEM)\n");
-    for (const LoadSpec& load : c.loads) {
-      fmt::print("  load       {}{} on the {} end, {}, through the {}\n", load.history, timing(load),
-                 load.end == End::left ? "left" : "right",
-                 load.history == "expression" ? load.expression : fmt::format("traction {:g}", load.traction),
-                 load.transfer == Transfer::node ? "boundary node" : "boundary layer (eq. 16)");
-    }
-    if (!c.body_force.empty()) fmt::print("  body force {}\n", c.body_force);
-    if (!c.initial_velocity.empty()) fmt::print("  velocity   {} at the start\n", c.initial_velocity);
-    if (!c.initial_stress.empty()) fmt::print("  stress     {} at the start\n", c.initial_stress);
-    if (c.exact.solution == "expressions") {
-      fmt::print("  exact      stress {}; velocity {}; displacement {}\n", c.exact.stress, c.exact.velocity,
-                 c.exact.displacement);
-    }
-    fmt::print("  exact      {}\n  features   {}\n  sampled    t = {} {}{}\n", c.exact.solution, listed(c.features),
-               listed(c.times), c.time_unit, c.from_contact ? " from contact" : "");
-    show_runs(c);
-    for (const Probe& probe : c.probes) {
-      fmt::print("  probe      {} {} at {:g} {}\n", probe.id, probe.field, probe.at.value, probe.at.unit);
-    }
-    for (const GateSpec& gate : c.gates) fmt::print("  gate       {:24} {}\n", gate.id, gate.declaration);
-    for (const FigureSpec& figure : c.figures) fmt::print("  figure     {}\n", figure.id);
   }
   return all_passed;
 }

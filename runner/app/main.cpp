@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "runner/app/case_file.hpp"
 #include "runner/app/commands.hpp"
-#include "runner/input/case_file.hpp"
 #include "runner/judge/gates.hpp"
 
 namespace {

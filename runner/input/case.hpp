@@ -1,7 +1,8 @@
 // A case file as data: one scene, an exact solution where there is one, the axes to sweep, and the gates.
-// cases/README.md is the schema for people; runner/input/case_file.cpp is the schema for the program.
+// cases/README.md is the schema for people; runner/app/case_file.cpp is the schema for the program.
 #pragma once
 
+#include <any>
 #include <array>
 #include <filesystem>
 #include <map>
@@ -108,57 +109,32 @@ struct GateSpec {
   std::string declaration;    ///< its own keys and values in one canonical line, for gates.lock
 };
 
-/// A published range of speeds of failure fronts, with the delay after which they set off: a time window at each gauge.
-struct SpeedBand {
-  std::string label;
-  std::array<double, 2> speed{1, 1};  ///< [m/s]
-  std::array<double, 2> delay{0, 0};  ///< [s]
+/// What runs must keep for a figure, beside their samples.
+struct Recorded {
+  bool curves = false;                           ///< of the fields along the bars, at the sample times
+  bool paths = false;                            ///< of points of the bars
+  bool energy = false;                           ///< in their books
+  std::optional<std::array<double, 2>> closely;  ///< paths: more often between these times [time unit of the case]
 };
 
-/// A table of a page on a failure wave: what some variants do.
-struct PageSection {
-  std::string heading, says;
-  std::vector<std::string> variants;  ///< "" is the case as it stands
-};
-
-/// A part of a motion figure, magnified.
-struct Zoom {
-  std::array<double, 2> x, t;  ///< [case units], [time unit of the case]
-};
-
+/// A figure or a page of the case: what all its kinds have in common.
 struct FigureSpec {
-  std::string id;     ///< "fig1"
-  std::string title;  ///< empty: the case's
-  /// "profiles" of a field at some times, or "motion": positions over time. Of a plate "contours" of both methods and
-  /// their difference, "problem": the scene itself, "history" of the platen, "convergence": probes over the cell size,
-  /// "rupture": the load of rupture over the cell size, "choices": what each variant does, "agreement": how far the
-  /// methods are apart and how far they may be, "gauges": histories of stress, or "failure": the page on a failure
-  /// wave.
-  std::string kind = "profiles";
-  std::string field = "stress";
-  std::vector<double> times;          ///< subset of the sample times; empty: all
-  std::vector<std::string> captions;  ///< one per time: what to see
-  int cells = 0;                      ///< which runs to draw
+  std::string id;             ///< "fig1"
+  std::string title;          ///< empty: the case's
+  std::string kind;           ///< one of the rows in runner/draw/figure_kinds.cpp
+  std::vector<double> times;  ///< subset of the sample times; empty: all
+  int cells = 0;              ///< which runs to draw
   double courant = 0;
   std::map<std::string, double> courants;  ///< of methods that are drawn at another Courant number
   std::vector<std::string> methods;        ///< drawn ones
   std::string choices;                     ///< parameters that the paper leaves open, in words
   std::vector<double> particles{0.5};
-  Parameters parameters;                            ///< of the runs to draw, where they are swept
-  std::optional<std::array<double, 2>> range;       ///< of the field's axis
-  std::optional<Zoom> zoom;                         ///< motion
-  double magnify = 1;                               ///< motion: displacements are drawn so many times as large
-  std::vector<double> levels;                       ///< contours, choices: of the field
-  std::string over, probe;                          ///< rupture: the load that is swept, and what is read
-  std::string variant;                              ///< rupture, convergence: of which variant
-  std::vector<std::string> probes;                  ///< convergence: a panel each
-  std::vector<std::string> gauges;                  ///< gauges: a panel each; empty: all
-  std::vector<std::string> variants;                ///< gauges: a panel each, too; empty: the case as it stands
-  std::vector<std::string> components;              ///< gauges: "longitudinal", "lateral"
-  std::vector<SpeedBand> bands;                     ///< gauges
-  std::optional<std::array<double, 2>> time_range;  ///< gauges [s]
-  std::vector<PageSection> sections;                ///< failure
-  std::vector<std::string> pictures;                ///< failure: figures of the case to show
+  Parameters parameters;                       ///< of the runs to draw, where they are swept
+  std::string over;                            ///< the swept parameter of which all values are drawn; empty: none
+  std::optional<std::array<double, 2>> range;  ///< of the field's axis, or of its colours
+  std::vector<std::string> pictures;           ///< of a page: figures of the case that stand on it
+  Recorded recorded;
+  std::any options;  ///< the options of its kind, which the kind's file reads and draws
 
   double courant_of(const std::string& method) const {
     const auto own = courants.find(method);

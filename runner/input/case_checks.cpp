@@ -219,12 +219,6 @@ Names variants_of(const Case& c) {
   return names;
 }
 
-Names figure_kinds(const Case& c) {
-  if (c.plate)
-    return {"contours", "problem", "history", "convergence", "rupture", "choices", "agreement", "gauges", "failure"};
-  return {"profiles", "motion"};
-}
-
 Names theories(const Case& c) {
   if (c.plate) return plate_theories;
   Names names;

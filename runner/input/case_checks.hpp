@@ -23,8 +23,6 @@ inline const Names invariants{"energy.drift",  "energy.lost",    "energy.closure
 Names methods_of(const Case&);
 /// Ids of a plate's variants, and "" for the case as it stands.
 Names variants_of(const Case&);
-/// Kinds of figures of the case's scene; the first is the usual one.
-Names figure_kinds(const Case&);
 /// What a `constant` gate may be measured against.
 Names theories(const Case&);
 /// Quantities that a gate of this kind may judge in this case.

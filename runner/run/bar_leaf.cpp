@@ -70,7 +70,7 @@ std::vector<double> BarLeaf::instants() const {
 }
 
 std::vector<long> BarLeaf::more_samples(const Stepping& stepping) const {
-  return drawn(c, leaf, "motion") ? steps_of_motion(c, leaf, stepping) : std::vector<long>{};
+  return drawn(c, leaf, &Recorded::paths) ? steps_of_motion(c, leaf, stepping) : std::vector<long>{};
 }
 
 std::optional<double> BarLeaf::mass() const {
@@ -96,7 +96,7 @@ reports::Sample BarLeaf::sample(const Snapshot& own, const Snapshot& at, double 
   const analytic::ExactSolution* exact = exact_.get();
   for (const auto& [q, name] : quantities) {
     const Field& field = field_of(own, q);
-    if (drawn(c, leaf, "profiles")) {
+    if (drawn(c, leaf, &Recorded::curves)) {
       sample.curves[name] = polyline(at, q, leaf, moves);
       if (exact && exact->gives(q)) {
         sample.exact_curves[name] = exact_line(*exact, q, bars, at.displacement.time, moves);

@@ -72,10 +72,10 @@ reports::Curve exact_line(const analytic::ExactSolution& exact, Quantity q, cons
   return curve;
 }
 
-bool drawn(const Case& c, const Leaf& leaf, const std::string& kind) {
+bool drawn(const Case& c, const Leaf& leaf, bool Recorded::*what) {
   return std::any_of(c.figures.begin(), c.figures.end(), [&](const FigureSpec& f) {
     const bool method = std::find(f.methods.begin(), f.methods.end(), leaf.method) != f.methods.end();
-    return method && f.kind == kind && f.cells == leaf.cells && f.courant_of(leaf.method) == leaf.courant &&
+    return method && f.recorded.*what && f.cells == leaf.cells && f.courant_of(leaf.method) == leaf.courant &&
            f.parameters == leaf.parameters && (!panel(leaf.method).particles || f.particles == leaf.particles);
   });
 }
@@ -89,9 +89,9 @@ std::vector<long> steps_of_motion(const Case& c, const Leaf& leaf, const Steppin
     }
   };
   for (const FigureSpec& f : c.figures) {
-    if (f.kind != "motion") continue;
+    if (!f.recorded.paths) continue;
     add(0, static_cast<double>(stepping.steps) * stepping.time_step);
-    if (f.zoom) add(instant(c, leaf.cells, f.zoom->t[0]), instant(c, leaf.cells, f.zoom->t[1]));
+    if (const auto& t = f.recorded.closely) add(instant(c, leaf.cells, (*t)[0]), instant(c, leaf.cells, (*t)[1]));
   }
   std::sort(steps.begin(), steps.end());
   steps.erase(std::unique(steps.begin(), steps.end()), steps.end());

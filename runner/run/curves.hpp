@@ -15,8 +15,8 @@ namespace diptych::runner {
 
 const Field& field_of(const Snapshot&, analytic::Quantity);
 
-/// Whether some figure of this kind ("profiles", "motion") draws the run.
-bool drawn(const Case&, const Leaf&, const std::string& kind);
+/// Whether some figure draws the run and needs it to keep this.
+bool drawn(const Case&, const Leaf&, bool Recorded::*what);
 
 /// As the method knows the field: an element's stress over the element, a particle's at the particle. Bars that move
 /// are drawn where they are; between two bars the line breaks.

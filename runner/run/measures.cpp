@@ -21,7 +21,7 @@ Books books_of(const Case& c, const Leaf& leaf, Books least) {
     return (of("energy.") || of("momentum.") || of("plastic.work") || of("stable")) && matches(gate.where, leaf);
   });
   const bool shown = std::any_of(c.figures.begin(), c.figures.end(), [&](const FigureSpec& figure) {
-    return figure.kind == "choices" && figure.cells == leaf.cells;  // whose table has the energy that comes back
+    return figure.recorded.energy && figure.cells == leaf.cells;
   });
   return asked || shown ? std::max(least, Books::sums) : least;
 }

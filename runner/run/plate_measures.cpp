@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "hinge/material/bifurcation.hpp"
+#include "reports/vtu.hpp"
 #include "runner/compare/contours.hpp"
 #include "runner/input/plate_build.hpp"
 #include "runner/run/instants.hpp"

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "runner/app/case_file.hpp"
 #include "runner/compare/uncertainty.hpp"
-#include "runner/input/case_file.hpp"
 #include "runner/judge/gates.hpp"
 #include "runner/judge/judging.hpp"
 #include "tests/case_text.hpp"

@@ -1,5 +1,6 @@
-#include "runner/input/case_file.hpp"
+#include "runner/app/case_file.hpp"
 
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <cstdlib>
@@ -12,6 +13,7 @@
 
 #include "runner/input/constants.hpp"
 #include "tests/broken_text.hpp"
+#include "tests/case_figures.hpp"
 #include "tests/case_text.hpp"
 #include "tests/messages.hpp"
 #include "tests/text.hpp"
@@ -379,9 +381,10 @@ BOOST_AUTO_TEST_CASE(every_key_is_read) {
 
   BOOST_REQUIRE_EQUAL(c.figures.size(), 1u);
   const FigureSpec& figure = c.figures[0];
-  BOOST_TEST((figure.id == "fig1" && figure.field == "velocity"));
+  const reports::Figure shown = drawn_figure(c, "fig1");
+  BOOST_TEST((figure.id == "fig1" && shown.y_label.starts_with("velocity v")), shown.y_label);
   BOOST_TEST((figure.times == std::vector<double>{0.5}));
-  BOOST_TEST((figure.captions == std::vector<std::string>{"on its way"}));
+  BOOST_TEST(shown.panels.at(0).label == "t = 0.5 L/c: on its way");
   BOOST_TEST((figure.cells == 200 && figure.courant == 0.5));
   BOOST_TEST((figure.methods == std::vector<std::string>{"mpm-musl"}));
   BOOST_TEST((figure.particles == std::vector<double>{0.5}));
@@ -457,12 +460,14 @@ BOOST_AUTO_TEST_CASE(a_row_of_bars_is_read) {
   BOOST_TEST((motion.courants == std::map<std::string, double>{{"fem", 0.5}, {"mpm-musl", 0.1}}));
   BOOST_TEST((motion.courant_of("fem") == 0.5 && motion.courant_of("mpm-musl") == 0.1));
   BOOST_TEST((motion.parameters == Parameters{{"v0", 1}}));
-  BOOST_REQUIRE(motion.zoom.has_value());
-  BOOST_TEST((motion.zoom->x == std::array{0.4, 0.6} && motion.zoom->t == std::array{-1.0, 3.0}));
-  BOOST_TEST(motion.magnify == 10);
+  const reports::Figure shown = drawn_figure(c, motion.id);
+  BOOST_REQUIRE_EQUAL(shown.panels.size(), 2u);
+  BOOST_TEST((shown.panels[1].x_range == std::array{0.4, 0.6} && shown.panels[1].y_range == std::array{-1.0, 3.0}));
+  BOOST_TEST((motion.recorded.closely == std::array{-1.0, 3.0} && motion.recorded.paths && !motion.recorded.curves));
+  BOOST_TEST((std::count(shown.notes.begin(), shown.notes.end(), "Displacements are drawn 10 times as large.") == 1));
   BOOST_TEST((motion.methods == std::vector<std::string>{"fem", "mpm-musl"}));
   const FigureSpec& profiles = c.figures[1];
-  BOOST_TEST((profiles.kind == "profiles" && profiles.field == "stress" && profiles.courants.empty()));
+  BOOST_TEST((profiles.kind == "profiles" && profiles.recorded.curves && profiles.courants.empty()));
   BOOST_TEST((profiles.courant_of("mpm-musl") == 0.1 && profiles.parameters == Parameters{{"v0", 0.5}}));
 }
 
@@ -472,8 +477,8 @@ BOOST_AUTO_TEST_CASE(what_is_left_out_is_as_said) {
   BOOST_TEST((!c.viscosity && c.contact == Contact::node_to_node && !c.from_contact && !c.convected));
   BOOST_TEST((c.axes[0].parameters.empty() && c.gates[0].where.parameters.empty()));
   const FigureSpec& figure = c.figures[0];
-  BOOST_TEST((figure.kind == "profiles" && figure.title.empty() && figure.choices.empty() && figure.magnify == 1));
-  BOOST_TEST((figure.courants.empty() && figure.parameters.empty() && !figure.zoom));
+  BOOST_TEST((figure.kind == "profiles" && figure.title.empty() && figure.choices.empty()));
+  BOOST_TEST((figure.courants.empty() && figure.parameters.empty()));
   BOOST_TEST(message(replaced(whole, "[model]", "[model]\ndisplacements = \"infinitesimal\"")) == "");
   BOOST_TEST(message(replaced(whole, "unit = \"L/c\", at = [0.5", "unit = \"L/c\", from = \"start\", at = [0.5")) ==
              "");

@@ -1,13 +1,13 @@
 // Figures of convergence and of rupture, and how far a mesh is from settled, from runs made by hand.
-#include "runner/draw/convergence_figures.hpp"
-
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <limits>
 
-#include "runner/input/case_file.hpp"
+#include "runner/app/case_file.hpp"
+#include "runner/draw/readings.hpp"
 #include "runner/input/leaf.hpp"
+#include "tests/case_figures.hpp"
 #include "tests/case_text.hpp"
 #include "tests/made_runs.hpp"
 #include "tests/text.hpp"
@@ -99,7 +99,7 @@ bool noted(const std::vector<std::string>& notes, const std::string& part) {
 BOOST_FIXTURE_TEST_SUITE(convergence_figures, Fixture)
 
 BOOST_AUTO_TEST_CASE(probes_stand_over_the_cell_size_with_their_bands_and_limits) {
-  const auto figure = convergence_figure(c, c.figures[0], runs);
+  const auto figure = drawn_figure(c, "converges", runs);
   BOOST_TEST_REQUIRE(figure.panels.size() == 3u);
   const auto& panel = figure.panels[0];
   BOOST_TEST(panel.label == "radius of C_d = 0.05 at 0° [m]");
@@ -120,11 +120,11 @@ BOOST_AUTO_TEST_CASE(probes_stand_over_the_cell_size_with_their_bands_and_limits
 
 BOOST_AUTO_TEST_CASE(runs_that_are_missing_are_not_drawn) {
   std::erase_if(runs, [](const Run& run) { return run.method == "mpm-musl" || run.cells < 40; });
-  const auto figure = convergence_figure(c, c.figures[0], runs);
+  const auto figure = drawn_figure(c, "converges", runs);
   BOOST_TEST(figure.panels[0].series.size() == 1u);  // two meshes have no band
   BOOST_TEST(figure.panels[0].marks.empty());
   runs.clear();
-  for (const auto& panel : convergence_figure(c, c.figures[0], runs).panels) BOOST_TEST(panel.series.empty());
+  for (const auto& panel : drawn_figure(c, "converges", runs).panels) BOOST_TEST(panel.series.empty());
   BOOST_TEST(distance_from_settled(c, c.figures[2], runs).empty());
 }
 
@@ -136,12 +136,14 @@ BOOST_AUTO_TEST_CASE(a_figure_says_how_far_its_mesh_is_from_settled) {
   for (Run& run : runs)
     if (run.method == "fem" && run.cells == 20) run.samples[0].probes[1].value = 0.8;
   BOOST_TEST(holds(distance_from_settled(c, c.figures[2], runs), "off by up to 45 %"));
+  const auto contours = named(drawn_case(c, runs).plate_figures, "fig13");
+  BOOST_TEST(noted(contours.notes, "off by up to 45 %"));
   c.figures[2].cells = 80;
   BOOST_TEST(distance_from_settled(c, c.figures[2], runs).empty());
 }
 
 BOOST_AUTO_TEST_CASE(the_load_of_rupture_is_read_between_two_loads) {
-  const auto figure = rupture_figure(c, c.figures[1], runs);
+  const auto figure = drawn_figure(c, "ruptures", runs);
   BOOST_TEST_REQUIRE(figure.panels.size() == 2u);
   const auto &over_load = figure.panels[0], &over_size = figure.panels[1];
   BOOST_TEST(over_load.label == "largest D at 2000 ms, 80 × 120 cells");
@@ -156,7 +158,7 @@ BOOST_AUTO_TEST_CASE(the_load_of_rupture_is_read_between_two_loads) {
       noted(figure.notes, "Load of rupture between 490 and 590 MPa over methods and meshes: a spread of 20.4 %"));
   for (Run& run : runs)
     for (auto& sample : run.samples) sample.probes[3].value = 0;
-  BOOST_TEST(noted(rupture_figure(c, c.figures[1], runs).notes, "No rupture begins between 400 and 600 MPa: FEM on 4"));
+  BOOST_TEST(noted(drawn_figure(c, "ruptures", runs).notes, "No rupture begins between 400 and 600 MPa: FEM on 4"));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "runner/input/case_file.hpp"
+#include "runner/app/case_file.hpp"
 #include "tests/messages.hpp"
 #include "tests/text.hpp"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "runner/input/case_file.hpp"
+#include "runner/app/case_file.hpp"
 #include "runner/input/leaf.hpp"
 #include "runner/run/runner.hpp"
 #include "tests/case_text.hpp"

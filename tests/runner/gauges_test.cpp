@@ -9,11 +9,12 @@
 #include <vector>
 
 #include "analytic/impact_lattice.hpp"
-#include "runner/draw/gauge_figures.hpp"
-#include "runner/input/case_file.hpp"
+#include "reports/page.hpp"
+#include "runner/app/case_file.hpp"
 #include "runner/input/plate_build.hpp"
 #include "runner/judge/gates.hpp"
 #include "runner/run/runner.hpp"
+#include "tests/case_figures.hpp"
 #include "tests/case_text.hpp"
 #include "tests/made_runs.hpp"
 #include "tests/text.hpp"
@@ -94,6 +95,13 @@ id = "failure"
 kind = "failure"
 cells = 40
 pictures = ["fig16", "one"]
+intro = ["A glass of {rho} kg/m³."]
+model = ["It fails at {threshold} GPa.", "Or not."]
+statements = [
+  { says = "E = {E} GPa, ν = {nu}", standing = "choice", source = "ours" },
+  { says = "Part {f_max} is converted; d0 = {d0}", standing = "reconstruction", source = "σ_x = {threshold_stress} GPa" },
+  { says = "Struck at {velocity} m/s", standing = "certain", source = "the paper" },
+]
 sections = [
   { heading = "Converted", says = "How much.", variants = ["", "weak"] },
   { heading = "Impact", says = "How hard.", variants = ["slow"] },
@@ -631,7 +639,7 @@ std::string under(const reports::Page::Section& section, std::size_t row, const 
 
 BOOST_AUTO_TEST_CASE(a_figure_of_gauges_has_a_panel_for_each_of_them) {
   const Case c = failing_case();
-  const auto figure = gauge_figure(c, c.figures.at(0), made_runs());
+  const auto figure = drawn_figure(c, "fig16", made_runs());
   BOOST_TEST(figure.id == "fig16");
   BOOST_TEST(figure.title == "Fig. 16. A struck plate");
   BOOST_REQUIRE_EQUAL(figure.panels.size(), 2u);
@@ -684,7 +692,7 @@ BOOST_AUTO_TEST_CASE(a_figure_of_gauges_has_a_panel_for_each_of_them) {
 
 BOOST_AUTO_TEST_CASE(a_figure_of_gauges_shows_what_is_asked_for) {
   const Case c = failing_case();
-  const auto figure = gauge_figure(c, c.figures.at(1), made_runs());
+  const auto figure = drawn_figure(c, "one", made_runs());
   BOOST_REQUIRE_EQUAL(figure.panels.size(), 2u);  // of one gauge and two variants
   for (const auto& panel : figure.panels) {
     BOOST_TEST(holds(panel.label, "6 mm"));
@@ -700,9 +708,10 @@ BOOST_AUTO_TEST_CASE(a_figure_of_gauges_shows_what_is_asked_for) {
   BOOST_TEST((figure.y_min == -1 && figure.y_max == 2));
   BOOST_TEST(figure.y_label == "−σ_x [GPa]");
   // What fails in one of them is marked with that one's level.
-  Case lateral = c;
-  lateral.figures[1].components = {"lateral"};
-  const auto across = gauge_figure(lateral, lateral.figures[1], made_runs());
+  const std::string along = "components = [\"longitudinal\"]\n";
+  std::string lateral = failing;
+  lateral.replace(lateral.find(along), along.size(), "components = [\"lateral\"]\n");
+  const auto across = drawn_figure(parse_case(lateral, "t.toml"), "one", made_runs());
   BOOST_TEST(across.y_label == "−σ_y [GPa]");
   Leaf weak;
   weak.cells = 40;
@@ -717,7 +726,7 @@ BOOST_AUTO_TEST_CASE(a_label_does_not_take_what_is_no_number_for_nothing) {
   const Case c = failing_case();
   auto runs = made_runs();
   for (auto& run : runs) run.measures["gauge.far.overshoot"] = nan_value;
-  for (const auto& panel : gauge_figure(c, c.figures.at(1), runs).panels)
+  for (const auto& panel : drawn_figure(c, "one", runs).panels)
     BOOST_TEST(!holds(panel.label, "overshoot 0.0 %"), panel.label);
 }
 
@@ -725,21 +734,19 @@ BOOST_AUTO_TEST_CASE(a_figure_says_what_is_missing_and_draws_no_line_backwards) 
   Case c = failing_case();
   auto runs = made_runs();
   std::erase_if(runs, [](const auto& run) { return run.method == "mpm-musl"; });
-  const auto figure = gauge_figure(c, c.figures.at(0), runs);
+  const auto figure = drawn_figure(c, "fig16", runs);
   BOOST_TEST(figure.panels.at(0).series.size() == 4u);
   BOOST_TEST(holds(figure.notes.back(), "mpm-musl is missing"), figure.notes.back());
   // A run that ends before the front has come to the gauge.
   c.times = {0.5e-6};
-  const auto early = gauge_figure(c, c.figures.at(0), runs);
+  const auto early = drawn_figure(c, "fig16", runs);
   for (const auto& one : early.panels.at(0).series)
     if (one.kind == "exact") BOOST_TEST(std::is_sorted(one.curve.x.begin(), one.curve.x.end()));
 }
 
 BOOST_AUTO_TEST_CASE(the_page_shows_every_variant_of_its_sections) {
   const Case c = failing_case();
-  reports::Case result;
-  result.runs = made_runs();
-  add_failure_page(c, c.figures.at(2), result);
+  const reports::Case result = drawn_case(c, made_runs());
   BOOST_REQUIRE_EQUAL(result.pages.size(), 1u);
   BOOST_TEST(result.pages[0].first == "failure");
   const reports::Page& page = result.pages[0].second;
@@ -752,6 +759,14 @@ BOOST_AUTO_TEST_CASE(the_page_shows_every_variant_of_its_sections) {
     BOOST_TEST((!row.name.empty() && !row.values[1].empty()));
     BOOST_TEST((row.values[0] == "certain" || row.values[0] == "reconstruction" || row.values[0] == "choice"));
   }
+  // Their numbers, and those of the prose, are the case's own.
+  BOOST_TEST((page.intro.at(0) == "w" && page.intro.at(1) == "A glass of 2500 kg/m³."), page.intro.at(1));
+  BOOST_TEST((page.sections[0].text == std::vector<std::string>{"It fails at 0.5 GPa.", "Or not."}));
+  BOOST_REQUIRE_EQUAL(page.sections[0].rows.size(), 3u);
+  BOOST_TEST(page.sections[0].rows[0].name == "E = 33.3333 GPa, ν = 0.25");
+  BOOST_TEST(page.sections[0].rows[1].name == "Part 0.5 is converted; d0 = 8");
+  BOOST_TEST(page.sections[0].rows[1].values[1] == "σ_x = 0.75 GPa");  // of which the lateral stress is a third
+  BOOST_TEST(page.sections[0].rows[2].name == "Struck at 200 m/s");
   BOOST_TEST((page.sections[1].picture == "fig16.svg" && page.sections[2].picture == "one.svg"));
   BOOST_TEST(page.sections[1].heading == "Fig. 16. A struck plate");
   const auto &converted = page.sections[3], &impact = page.sections[4];
@@ -778,10 +793,9 @@ BOOST_AUTO_TEST_CASE(the_page_shows_every_variant_of_its_sections) {
   for (const auto& row : converted.rows) BOOST_TEST(!missing(row));
   BOOST_TEST(holds(reports::page_html(page), "half of it is converted"));
   // A run that blew up did not complete either.
-  reports::Case broken;
-  broken.runs = made_runs();
-  for (auto& run : broken.runs) run.status = "unstable";
-  add_failure_page(c, c.figures.at(2), broken);
+  auto unstable = made_runs();
+  for (auto& run : unstable) run.status = "unstable";
+  const reports::Case broken = drawn_case(c, unstable);
   for (const auto& row : broken.pages.at(0).second.sections.at(3).rows) BOOST_TEST(missing(row));
 }
 
@@ -792,12 +806,10 @@ BOOST_AUTO_TEST_CASE(the_page_tells_what_the_diffusion_costs) {
   c.axes[0].method = {"fem"};
   c.axes[0].variant = {""};
   c.figures[2].methods = {"fem"};
-  reports::Case result;
-  result.runs = run_cases({c}, {}).at(0).runs;
+  const reports::Case result = drawn_case(c, run_cases({c}, {}).at(0).runs);
   BOOST_REQUIRE_EQUAL(result.runs.size(), 1u);
   BOOST_REQUIRE_EQUAL(result.runs[0].status, "completed");
   BOOST_TEST(result.runs[0].invalid == "", result.runs[0].invalid);
-  add_failure_page(c, c.figures[2], result);
   const auto& section = result.pages.at(0).second.sections.at(3);
   const std::string updates = under(section, 0, "node updates");
   BOOST_REQUIRE_MESSAGE(updates != "no such column" && updates != "–", updates);

@@ -9,11 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "runner/input/case_file.hpp"
+#include "runner/app/case_file.hpp"
 #include "runner/input/constants.hpp"
 #include "runner/input/leaf.hpp"
 #include "runner/input/plate_build.hpp"
 #include "tests/broken_text.hpp"
+#include "tests/case_figures.hpp"
 #include "tests/case_text.hpp"
 #include "tests/messages.hpp"
 #include "tests/text.hpp"
@@ -447,11 +448,16 @@ BOOST_AUTO_TEST_CASE(every_key_of_a_damaging_plate_is_read) {
   BOOST_TEST((c.gates[2].level == 0.06 && c.gates[2].shrinks));
   BOOST_TEST((c.gates[3].expect == 3.0 && c.gates[3].max == 0.5));
   BOOST_REQUIRE_EQUAL(c.figures.size(), 4u);
-  BOOST_TEST((c.figures[0].kind == "contours" && c.figures[0].field == "damage"));
-  BOOST_TEST((c.figures[0].levels == std::vector<double>{0.01, 0.05} && c.figures[0].cells == 10));
+  const reports::Case shown = drawn_case(c);
+  const reports::PlateFigure& contours = shown.plate_figures.at(0);
+  BOOST_TEST((c.figures[0].kind == "contours" && c.figures[0].cells == 10));
+  BOOST_TEST(contours.notes.at(1).ends_with("levels of D: 0.01, 0.05"), contours.notes.at(1));
   BOOST_TEST(c.figures[1].kind == "problem");
-  BOOST_TEST((c.figures[3].kind == "convergence" && c.figures[3].probes == std::vector<std::string>{"r", "pl"}));
-  BOOST_TEST((c.figures[2].over == "P" && c.figures[2].probe == "l" && c.figures[2].variant == "tracked"));
+  BOOST_REQUIRE_EQUAL(shown.figures.size(), 2u);
+  BOOST_TEST((c.figures[3].kind == "convergence" && shown.figures[1].panels.size() == 2u));
+  BOOST_TEST(shown.figures[1].panels[0].label == "radius of C_d = 0.05 at 45° [m]");
+  BOOST_TEST(shown.figures[1].panels[1].label == "displacement of the platen [m]");
+  BOOST_TEST((c.figures[2].kind == "rupture" && c.figures[2].over == "P"));
 }
 
 BOOST_AUTO_TEST_CASE(every_key_of_a_mode_and_of_diffusion_alone_is_read) {
@@ -1154,20 +1160,24 @@ BOOST_AUTO_TEST_CASE(every_key_of_a_failure_wave_is_read) {
   BOOST_TEST((c.gates[0].kind == "settling" && c.gates[0].quantity == "gauge.near.yy" && c.gates[0].max == 0.9));
   BOOST_TEST((c.gates[1].predict == "diffusion-front" && c.gates[2].expect == 1500 && c.gates[3].expect == 1));
   BOOST_REQUIRE_EQUAL(c.figures.size(), 2u);
-  const FigureSpec &figure = c.figures[0], &page = c.figures[1];
-  BOOST_TEST((figure.kind == "gauges" && figure.gauges == std::vector<std::string>{"near", "far"}));
-  BOOST_TEST((figure.variants == std::vector<std::string>{""}));
-  BOOST_TEST((figure.components == std::vector<std::string>{"lateral"}));
-  BOOST_TEST((figure.time_range == std::array<double, 2>{0, 2e-6} && figure.range == std::array<double, 2>{-1, 4}));
-  BOOST_REQUIRE_EQUAL(figure.bands.size(), 2u);
-  BOOST_TEST((figure.bands[0].label == "both" && figure.bands[0].speed == std::array<double, 2>{800, 2100}));
-  BOOST_TEST((figure.bands[0].delay == std::array<double, 2>{0.1e-6, 0.7e-6}));
-  BOOST_TEST((figure.bands[1].speed == std::array<double, 2>{2000, 2000}));
-  BOOST_TEST((figure.bands[1].delay == std::array<double, 2>{0, 0}));
-  BOOST_TEST((page.kind == "failure" && page.pictures == std::vector<std::string>{"fig16"}));
-  BOOST_REQUIRE_EQUAL(page.sections.size(), 1u);
-  BOOST_TEST((page.sections[0].heading == "h" && page.sections[0].says == "s"));
-  BOOST_TEST((page.sections[0].variants == std::vector<std::string>{""}));
+  BOOST_TEST((c.figures[0].kind == "gauges" && c.figures[1].kind == "failure"));
+  BOOST_TEST((c.figures[1].pictures == std::vector<std::string>{"fig16"}));
+  const reports::Case shown = drawn_case(c);
+  const reports::Figure& figure = shown.figures.at(0);
+  BOOST_REQUIRE_EQUAL(figure.panels.size(), 2u);  // all gauges of the case as it stands
+  BOOST_TEST(figure.y_label == "−σ_y [GPa]");
+  BOOST_TEST((figure.x_min == 0 && figure.x_max == 2 && figure.y_min == -1 && figure.y_max == 4));
+  const auto& spans = figure.panels[0].spans;
+  BOOST_REQUIRE_EQUAL(spans.size(), 2u);
+  BOOST_TEST((spans[0].label == "both" && spans[1].label == "one"));
+  BOOST_TEST(spans[0].from == 4.5e-3 / 2100 * 1e6 + 0.1, tt::tolerance(1e-12));
+  BOOST_TEST(spans[0].to == 4.5e-3 / 800 * 1e6 + 0.7, tt::tolerance(1e-12));
+  BOOST_TEST(spans[1].from == 4.5e-3 / 2000 * 1e6, tt::tolerance(1e-12));
+  BOOST_TEST(spans[1].to == spans[1].from);
+  const reports::Page& page = shown.pages.at(0).second;
+  BOOST_REQUIRE_EQUAL(page.sections.size(), 2u);  // nothing is said of the model
+  BOOST_TEST((page.sections[1].heading == "h" && page.sections[1].text.at(0) == "s"));
+  BOOST_TEST(page.sections[1].rows.size() == 2u);  // a row for each method
 }
 
 BOOST_AUTO_TEST_CASE(keys_of_a_struck_plate_have_usual_values) {
@@ -1427,6 +1437,30 @@ BOOST_AUTO_TEST_CASE(settling_is_of_four_meshes_of_one_or_two_methods) {
   where(grains, "method = \"mpm-musl\"", {"gate \"settles\": where", "more than the mesh", "one of them"});
   says(without(struck, {"max = 0.9"}), "[[gate]]\nid = \"settles\"", {"gate \"settles\": max", "missing"});
   added(struck, "max = 0.9", "judged = [42]", {"gate \"settles\": judged", "kind = \"settling\"", "\"agreement\""});
+}
+
+// A page's prose takes the numbers of its own case, by names that the case has.
+BOOST_AUTO_TEST_CASE(prose_of_a_page_asks_for_numbers_of_the_case) {
+  const auto statement = [](const std::string& says) {
+    return "statements = [{ says = \"" + says + "\", standing = \"choice\", source = \"ours\" }]";
+  };
+  const std::string at = "pictures = [\"fig16\"]", numbers = statement("E = {E} GPa, σ_x = {threshold_stress} GPa");
+  const auto stated = [&](const std::string& text) {
+    return drawn_case(parse_case(text, "t")).pages.at(0).second.sections.at(0).rows.at(0).name;
+  };
+  const std::string glass = replaced(struck, at, at + '\n' + numbers);
+  BOOST_TEST(stated(glass) == "E = 72.8 GPa, σ_x = 3.85 GPa");
+  BOOST_TEST(stated(replaced(replaced(glass, "E = 72.8e9", "E = 60e9"), "threshold = 2.75e9", "threshold = 2e9")) ==
+             "E = 60 GPa, σ_x = 2.8 GPa");
+  added(struck, at, statement("{treshold} GPa"),
+        {"says", "found \"{treshold}\"", "f_max", "did you mean \"threshold\"?"});
+  added(struck, at, statement("{} GPa"), {"says", "found \"{}\"", "\"E\", "});
+  added(struck, at, statement("{E GPa"), {"says", "found \"{\"", "\"E\", "});
+  added(struck, at, statement("E} GPa"), {"says", "found \"}\"", "\"E\", "});
+  added(struck, at, "statements = [{ says = \"s\", standing = \"sure\", source = \"ours\" }]",
+        {"standing", "\"certain\", \"reconstruction\", \"choice\""});
+  const std::string unsourced = "statements = [{ says = \"s\", standing = \"choice\" }]";
+  BOOST_TEST(holds(message(replaced(struck, at, at + '\n' + unsourced)), "source: missing"));
 }
 
 BOOST_AUTO_TEST_CASE(figures_of_gauges_draw_what_is_there) {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "runner/input/case_file.hpp"
+#include "runner/app/case_file.hpp"
 #include "runner/input/plate_build.hpp"
 #include "runner/judge/gates.hpp"
 #include "runner/run/doubt.hpp"

@@ -6,9 +6,9 @@
 #include <limits>
 #include <sstream>
 
+#include "runner/app/case_file.hpp"
 #include "runner/app/catalogue.hpp"
 #include "runner/app/provenance.hpp"
-#include "runner/input/case_file.hpp"
 #include "runner/run/doubt.hpp"
 #include "tests/messages.hpp"
 #include "tests/text.hpp"

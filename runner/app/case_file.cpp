@@ -1,12 +1,13 @@
 // A case file from its first table to its last: what bars and plates have of their own is read in bar_file.cpp and
 // plate_file.cpp.
-#include "runner/input/case_file.hpp"
+#include "runner/app/case_file.hpp"
 
 #include <cerrno>
 #include <fstream>
 #include <sstream>
 #include <system_error>
 
+#include "runner/draw/figure_kinds.hpp"
 #include "runner/input/case_tables.hpp"
 #include "runner/input/toml_table.hpp"
 
@@ -20,14 +21,7 @@ void read_judgement(Table& file, Case& c) {
   });
   c.gates = read_each<GateSpec>(file, "gate", c, read_gate);
   c.figures = read_each<FigureSpec>(file, "figure", c, read_figure);
-  Names drawn;
-  for (const FigureSpec& figure : c.figures)
-    if (figure.kind == "gauges") drawn.push_back(figure.id);
-  for (const FigureSpec& figure : c.figures)
-    for (const std::string& picture : figure.pictures)
-      if (!contains(drawn, picture))
-        file.place("figure").say("found " + words(picture) + " among the pictures of " + words(figure.id) +
-                                 "; allowed: figures of kind gauges of this case, " + joined(drawn));
+  check_figures(file.place("figure"), c);
 
   if (c.gates.empty())
     file.place("gate").say("missing; a case with no gate is an error; allowed: at least one [[gate]]");
