@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <map>
+#include <stdexcept>
 #include <type_traits>
+#include <utility>
 
 #include "runner/draw/figure_kind.hpp"
 #include "runner/input/case_tables.hpp"
@@ -17,15 +19,15 @@ FigureKind profiles_kind(), motion_kind();
 FigureKind contours_kind(), problem_kind(), history_kind(), convergence_kind(), rupture_kind(), choices_kind(),
     agreement_kind(), gauges_kind(), failure_kind();
 
-const std::vector<FigureKind>& figure_kinds() {
-  static const std::vector<FigureKind> all{profiles_kind(), motion_kind(),  // of bars
-                                           contours_kind(), problem_kind(),   history_kind(), convergence_kind(),
-                                           rupture_kind(),  // of plates
-                                           choices_kind(),  agreement_kind(), gauges_kind(),  failure_kind()};
+namespace {
+
+std::vector<FigureKind>& table() {
+  static std::vector<FigureKind> all{profiles_kind(), motion_kind(),  // of bars
+                                     contours_kind(), problem_kind(),   history_kind(), convergence_kind(),
+                                     rupture_kind(),  // of plates
+                                     choices_kind(),  agreement_kind(), gauges_kind(),  failure_kind()};
   return all;
 }
-
-namespace {
 
 std::vector<const FigureKind*> kinds_of(const Case& c) {
   const auto scenes = c.plate ? FigureKind::Scenes::plates : FigureKind::Scenes::bars;
@@ -130,6 +132,19 @@ void check_runs(Table& t, const FigureSpec& figure, const Case& c) {
 }
 
 }  // namespace
+
+const std::vector<FigureKind>& figure_kinds() { return table(); }
+
+AddedFigureKind::AddedFigureKind(FigureKind added) : name_(added.name) {
+  const auto same = [&](const FigureKind& kind) { return kind.name == name_; };
+  if (std::any_of(table().begin(), table().end(), same))
+    throw std::invalid_argument("a kind of figure is called '" + name_ + "' already");
+  table().push_back(std::move(added));
+}
+
+AddedFigureKind::~AddedFigureKind() {
+  std::erase_if(table(), [&](const FigureKind& kind) { return kind.name == name_; });
+}
 
 FigureSpec read_figure(Table& t, const Case& c) {
   FigureSpec figure;

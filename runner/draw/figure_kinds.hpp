@@ -1,6 +1,7 @@
 // Figures and pages of a case: [[figure]] read from its file, and drawn from its runs.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "reports/results.hpp"
@@ -14,6 +15,20 @@ struct FigureKind;
 
 /// Every kind of figure there is; of a scene the first is the usual one.
 const std::vector<FigureKind>& figure_kinds();
+
+/// One kind more for as long as it lives: how a test adds one. Not to be made or destroyed while cases are read or
+/// drawn.
+class AddedFigureKind {
+ public:
+  /// Throws std::invalid_argument where a kind has this name already.
+  explicit AddedFigureKind(FigureKind);
+  ~AddedFigureKind();
+  AddedFigureKind(const AddedFigureKind&) = delete;
+  AddedFigureKind& operator=(const AddedFigureKind&) = delete;
+
+ private:
+  std::string name_;
+};
 
 /// An entry of [[figure]].
 FigureSpec read_figure(Table&, const Case&);
