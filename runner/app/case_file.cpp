@@ -10,6 +10,7 @@
 #include "runner/draw/figure_kinds.hpp"
 #include "runner/input/case_tables.hpp"
 #include "runner/input/toml_table.hpp"
+#include "runner/judge/gate_file.hpp"
 
 namespace diptych::runner {
 namespace {

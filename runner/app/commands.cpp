@@ -306,21 +306,7 @@ int explain_command(const Options& options, const std::atomic<bool>& cancelled) 
   const auto cases = select_cases(options.selectors);
   const auto results = measure(cases, options, Purpose::judge, cancelled);
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    for (const auto& gate : results[i].gates) {
-      fmt::print(
-          "{}/{}: {}\n  {}\n  case        {}\n  declared    {}:{}\n  kind        {}\n  judged      {}\n  why so      "
-          "{}\n",
-          gate.case_id, gate.id, to_string(gate.verdict), gate.message.empty() ? "every check passed" : gate.message,
-          cases[i].title, cases[i].path.string(), gate.line, gate.kind, gate.formula, gate.reason);
-      for (const auto& check : gate.checks) {
-        fmt::print("  {} {:60} value {:12.6g}{} judged {:12.6g} in [{}, {}]\n", check.passed ? "ok  " : "FAIL",
-                   check.what, check.value,
-                   check.predicted ? fmt::format("  predicted {:12.6g}", *check.predicted) : "", check.judged,
-                   check.low, check.high);
-      }
-      if (gate.verdict == reports::Verdict::pass) fmt::print("  headroom    {:.0f} %\n", 100 * gate.headroom());
-      fmt::print("\n");
-    }
+    for (const auto& gate : results[i].gates) fmt::print("{}\n", explanation(cases[i], gate));
   }
   int declared = 0;
   for (const Case& c : cases) declared += static_cast<int>(c.gates.size());

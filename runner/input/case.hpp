@@ -6,6 +6,7 @@
 #include <array>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -84,29 +85,22 @@ struct Probe {
   Measured at;        ///< reference coordinate, unit "m", "L" or "cells" counted from the left end
 };
 
+/// What a kind of gate has of its own, see judge/gate_kind.hpp.
+struct Criterion;
+
 struct GateSpec {
   std::string id;        ///< unique in the case
-  std::string kind;      ///< "exact", "constant", "order", "invariant", "limit", "agreement", "settling"
-  std::string quantity;  ///< see cases/README.md
+  std::string kind;      ///< of judge/gate_kinds.cpp
+  std::string quantity;  ///< of compare/quantities.cpp
   std::string reason;    ///< why this tolerance
   Where where;
-  std::vector<double> times;  ///< subset of the sample times; empty: all
-  std::optional<double> max;  ///< exact, invariant: |value| ≤ max (exact: in units of the field's scale)
-  std::optional<std::array<double, 2>> ratio;  ///< constant, limit: measured / predicted within, inclusive
-  std::string predict;                         ///< constant, limit: name of the theory
-  std::optional<double> expect;                ///< order: must agree with theory where there is one
-  std::optional<std::array<double, 2>> band;   ///< order: allowed slope, inclusive
-  int levels_min = 4;                          ///< order: least number of meshes (or time steps)
-  bool over_time_step = false;                 ///< order: of the time step on each mesh; else of the mesh
-  std::string outcome;                         ///< limit: "unstable" where the runs must be detected as unstable
-  long steps = 2000;                           ///< limit: steps of each trial of the bisection
-  std::vector<int> judged;                     ///< agreement, settling of probes: meshes that the gate is about
-  double level = 0;                            ///< agreement of contours: of C_d
-  bool shrinks = true;                         ///< agreement: the difference must do so from coarse to fine
-  std::vector<double> apart;  ///< agreement: most that the methods differ by on each of `judged`, of the value; or none
-  bool slow = false;          ///< left out by --quick, and then reported as left out
-  int line = 0;               ///< of its declaration
-  std::string declaration;    ///< its own keys and values in one canonical line, for gates.lock
+  std::vector<double> times;                   ///< subset of the sample times; empty: all
+  std::shared_ptr<const Criterion> criterion;  ///< none where the kind is not known
+  bool keeps_time_steps = false;  ///< its runs' time steps are no smaller than asked for, to meet each sample time
+  long steps = 2000;              ///< of each trial in the search for the critical Courant number
+  bool slow = false;              ///< left out by --quick, and then reported as left out
+  int line = 0;                   ///< of its declaration
+  std::string declaration;        ///< its own keys and values in one canonical line, for gates.lock
 };
 
 /// What runs must keep for a figure, beside their samples.

@@ -1,4 +1,4 @@
-// What no single value of a case file tells: whether scene, axes, solution, expressions and gates go together. Each
+// What no single value of a case file tells: whether scene, axes, solution and expressions go together. Each
 // check notes its mistakes at the place given, and passes over what is empty because it has been reported already.
 #pragma once
 
@@ -12,27 +12,19 @@
 namespace diptych::runner {
 
 inline const Names fields{"stress", "velocity", "displacement"};
-/// What a run with several bars or plasticity tells beside its fields, each with what the exact solution says of it.
-inline const Names outcomes{"contact.begin",    "contact.early",       "contact.end",
-                            "contact.duration", "contact.restitution", "plastic.work"};
-inline const Names invariants{"energy.drift",  "energy.lost",    "energy.closure",    "energy.given-back",
-                              "energy.excess", "momentum.drift", "bits.power-of-two", "bits.mirror",
-                              "bits.repeat",   "bits.alone",     "bits.inviscid",     "cross.fem-on-half-the-cells"};
 
 /// Methods that can take the case's scene.
 Names methods_of(const Case&);
 /// Ids of a plate's variants, and "" for the case as it stands.
 Names variants_of(const Case&);
-/// What a `constant` gate may be measured against.
-Names theories(const Case&);
-/// Quantities that a gate of this kind may judge in this case.
-Names quantities_of(const std::string& kind, const Case&);
 /// The values of all blocks of axes together; none where the axes hold a mistake.
 Axes all_axes(const Case&);
 /// The length of the first bar in "m", "L" or "cells" of the coarsest grid; 0 where it is not known.
 double bar_in(const std::string& unit, const Case&);
 /// The runs that a gate speaks of.
 std::vector<Leaf> runs_of(const GateSpec&, const Case&);
+/// The case with each set of parameters that some run has; itself where no run is known.
+std::vector<Case> cases_of_runs(const Case&);
 /// Each of them greater than the one before.
 bool ascending(const std::vector<double>&);
 
@@ -52,9 +44,5 @@ void check_features(const Place&, const Case&);
 void check_steps(const Place& courant, const Axes&, const Case&);
 void check_methods(const Place& method, const Axes&, const Case&);
 void check_solution(const Place& solution, const Case&);
-/// Each value that `where` names must be met by some run of the gate, or it would be judged on less than it says.
-void check_where(const Place& where, const GateSpec&, const Case&);
-void check_gate(Table&, const GateSpec&, const Case&);
-void check_gates(const Place&, const Case&);
 
 }  // namespace diptych::runner

@@ -97,7 +97,5 @@ std::vector<Entry> read_each(Table& parent, const std::string& key, const Case& 
 /// A case of bars or of a plate: all that stands between the first tables of read_file and [run].
 void read_bar_case(Table& file, Case&);
 void read_plate_case(Table& file, Case&);
-/// An entry of [[gate]].
-GateSpec read_gate(Table&, const Case&);
 
 }  // namespace diptych::runner

@@ -109,10 +109,6 @@ struct GaugeSpec {
   double from_face = 0;  ///< distance from the impact face, in the target [m]
 };
 
-/// What is read off one gauge: the names of its measures, after "gauge.ID.".
-inline const std::vector<std::string> gauge_measures{"arrival",      "rise",    "overshoot", "plateau", "ratio",
-                                                     "longitudinal", "lateral", "failure",   "release"};
-
 /// The plate with some keys set otherwise.
 struct PlateVariant {
   std::string id, says;

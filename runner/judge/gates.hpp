@@ -12,6 +12,9 @@ namespace diptych::runner {
 /// Judges one gate on the case's runs. A gate that finds nothing to judge is INVALID, never a pass.
 reports::Gate judge(const Case&, const GateSpec&, const std::vector<reports::Run>&);
 
+/// A judged gate in words: where it is declared, what its kind judges, and each number with what it was held against.
+std::string explanation(const Case&, const reports::Gate&);
+
 /// Whether the gate bounds numbers one by one, so that it has failed as soon as one run fails it.
 bool of_single_numbers(const GateSpec&);
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 
 #include "reports/results.hpp"
 
@@ -12,6 +13,8 @@ struct Stop {
   reports::Verdict verdict;
   std::string message;
 };
+
+[[noreturn]] inline void not_judged(const std::string& why) { throw Stop{reports::Verdict::invalid, why}; }
 
 /// Throws Stop where the run did not complete or cannot be judged.
 inline void check_judgeable(const reports::Run& run) {

@@ -70,7 +70,7 @@ std::vector<long> Plan::own_steps() const {
 
 Meet what_to_meet(const Case& c) {
   const bool measures_order =
-      std::any_of(c.gates.begin(), c.gates.end(), [](const GateSpec& gate) { return gate.kind == "order"; });
+      std::any_of(c.gates.begin(), c.gates.end(), [](const GateSpec& gate) { return gate.keeps_time_steps; });
   return measures_order ? Meet::last : Meet::all;
 }
 

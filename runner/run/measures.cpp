@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runner/compare/quantities.hpp"
 #include "runner/input/messages.hpp"
 
 namespace diptych::runner {
@@ -17,8 +18,8 @@ bool asks_for(const Case& c, const Leaf& leaf, const std::string& quantity) {
 Books books_of(const Case& c, const Leaf& leaf, Books least) {
   if (!c.ledger) return Books::off;
   const bool asked = std::any_of(c.gates.begin(), c.gates.end(), [&](const GateSpec& gate) {
-    const auto of = [&](const char* what) { return gate.quantity.starts_with(what); };
-    return (of("energy.") || of("momentum.") || of("plastic.work") || of("stable")) && matches(gate.where, leaf);
+    const Quantity* quantity = find_quantity(gate.quantity, c);
+    return quantity && quantity->of_books && matches(gate.where, leaf);
   });
   const bool shown = std::any_of(c.figures.begin(), c.figures.end(), [&](const FigureSpec& figure) {
     return figure.recorded.energy && figure.cells == leaf.cells;
@@ -38,19 +39,22 @@ std::string status_of(Outcome outcome) {
 
 void measure_ledger(double mass, const LedgerSums& sums, const std::vector<LedgerLine>& lines, reports::Run& run) {
   for (const LedgerLine& line : lines) {
-    run.ledger.push_back({line.time, line.kinetic, line.strain, line.dissipated, line.viscous, line.contact,
-                          line.scheme, line.work, line.lost, line.momentum, line.impulse});
+    run.ledger.push_back({.time = line.time,
+                          .kinetic = line.kinetic,
+                          .strain = line.strain,
+                          .dissipated = line.dissipated,
+                          .viscous = line.viscous,
+                          .contact = line.contact,
+                          .scheme = line.scheme,
+                          .work = line.work,
+                          .lost = line.lost,
+                          .momentum = line.momentum,
+                          .impulse = line.impulse});
   }
   run.finite = run.finite && sums.finite;
   if (!sums.finite || !(sums.held > 0)) return;  // where nothing moved there is no measure, and a gate on it is INVALID
-  const auto relative = [](double value, double scale) { return scale > 0 ? value / scale : value; };
-  run.measures["energy.drift"] = relative(sums.taken, sums.held);
-  run.measures["energy.lost"] = relative(sums.last.contact + sums.last.scheme + sums.last.lost, sums.held);
-  run.measures["energy.dissipated"] = relative(sums.last.dissipated, sums.held);
-  run.measures["energy.closure"] = relative(sums.lost, sums.held);
-  run.measures["energy.given-back"] = relative(sums.given_back, sums.held);
-  run.measures["energy.excess"] = relative(sums.excess, sums.put_in);
-  run.measures["momentum.drift"] = relative(sums.momentum, std::sqrt(2 * mass * sums.kinetic));
+  for (const Quantity& quantity : quantities())
+    if (quantity.from_books) run.measures[quantity.name] = quantity.from_books(sums, mass);
 }
 
 double bisect_limit(const std::function<bool(double courant)>& stable, double predicted) {

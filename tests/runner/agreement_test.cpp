@@ -12,7 +12,10 @@
 #include "runner/compare/uncertainty.hpp"
 #include "runner/judge/gates.hpp"
 #include "runner/judge/judging.hpp"
+#include "runner/judge/order.hpp"
+#include "runner/judge/settling.hpp"
 #include "tests/case_text.hpp"
+#include "tests/criteria.hpp"
 #include "tests/made_runs.hpp"
 #include "tests/text.hpp"
 
@@ -140,34 +143,34 @@ BOOST_AUTO_TEST_CASE(methods_that_are_further_apart_than_their_meshes_let_expect
   c.gates[0].times = {1.0};
   BOOST_TEST((judged().verdict == Verdict::pass));
   c.gates[0].times = {};
-  c.gates[0].max = 1e6;  // how far is too far is the gate's to say
-  c.gates[0].shrinks = false;
+  change_criterion<AgreementCriterion>(c.gates[0]).max = 1e6;  // how far is too far is the gate's to say
+  change_criterion<AgreementCriterion>(c.gates[0]).shrinks = false;
   BOOST_TEST((judged().verdict == Verdict::pass));
 }
 
 BOOST_AUTO_TEST_CASE(the_difference_must_shrink_where_that_is_asked) {
   // On the finest mesh as far apart as on the coarsest that is judged, and still within wide bands.
-  c.gates[0].max = 1e6;
+  change_criterion<AgreementCriterion>(c.gates[0]).max = 1e6;
   const double apart = probe("fem", 20, 0) - probe("mpm-musl", 20, 0);
   probe("fem", 80, 0) = probe("mpm-musl", 80, 0) + 1.5 * apart;
   const auto gate = judged();
   BOOST_TEST((gate.verdict == Verdict::fail));
   BOOST_TEST(holds(gate.message, "finest / coarsest"), gate.message);
-  c.gates[0].shrinks = false;
+  change_criterion<AgreementCriterion>(c.gates[0]).shrinks = false;
   BOOST_TEST((judged().verdict == Verdict::pass));
   BOOST_TEST(judged().checks.size() == 6u);
-  c.gates[0].shrinks = true;
+  change_criterion<AgreementCriterion>(c.gates[0]).shrinks = true;
   probe("fem", 80, 0) = probe("mpm-musl", 80, 0) + 0.5 * apart;
   BOOST_TEST((judged().verdict == Verdict::pass));
 }
 
 BOOST_AUTO_TEST_CASE(only_the_meshes_that_are_named_are_judged) {
   probe("mpm-musl", 10, 0) += 1;  // far off, on a mesh that is not judged
-  c.gates[0].judged = {80};
-  c.gates[0].max = 1e9;
+  change_criterion<AgreementCriterion>(c.gates[0]).judged = {80};
+  change_criterion<AgreementCriterion>(c.gates[0]).max = 1e9;
   BOOST_TEST((judged().verdict == Verdict::pass));
   BOOST_TEST(judged().checks.size() == 2u);  // one mesh tells nothing of shrinking
-  c.gates[0].judged = {80, 160};
+  change_criterion<AgreementCriterion>(c.gates[0]).judged = {80, 160};
   invalid("1 of 2 meshes to judge were run");
 }
 
@@ -246,7 +249,7 @@ BOOST_AUTO_TEST_CASE(a_number_that_is_none_is_invalid_and_never_a_pass) {
 }
 
 BOOST_AUTO_TEST_CASE(a_contour_that_is_not_there_is_no_agreement) {
-  c.gates[1].level = 5;  // nowhere reached
+  change_criterion<AgreementCriterion>(c.gates[1]).level = 5;  // nowhere reached
   invalid("not a finite number", 1);
 }
 
@@ -277,14 +280,14 @@ BOOST_AUTO_TEST_CASE(an_uncertainty_that_is_too_wide_judges_nothing) {
   }
   invalid("20 cells, t = 1 s: the uncertainty ");
   invalid("more than 25 %: nothing is judged by it");
-  c.gates[0].judged = {80};
+  change_criterion<AgreementCriterion>(c.gates[0]).judged = {80};
   c.gates[0].times = {1.0};
   BOOST_TEST((judged().verdict == Verdict::pass), judged().message);
 }
 
 BOOST_AUTO_TEST_CASE(methods_may_be_apart_by_a_part_of_the_value) {
   // 1 + h² against 1 + h²/2: 0.00125, 0.00031 and 0.00008 of the value.
-  c.gates[0].apart = {0.0013, 0.00032, 0.00008};
+  change_criterion<AgreementCriterion>(c.gates[0]).apart = {0.0013, 0.00032, 0.00008};
   auto gate = judged();
   BOOST_TEST((gate.verdict == Verdict::pass), gate.message);
   BOOST_TEST(gate.checks.size() == 14u);  // two for each of three meshes, and whether it shrinks; at each time
@@ -294,14 +297,14 @@ BOOST_AUTO_TEST_CASE(methods_may_be_apart_by_a_part_of_the_value) {
   BOOST_TEST((first.cells == 20 && first.time == 1 && first.values[0] == probe("fem", 20, 0) &&
               first.values[1] == probe("mpm-musl", 20, 0) && first.apart == gate.checks[0].value &&
               first.expected == *gate.checks[0].predicted));
-  c.gates[0].apart = {0.0013, 0.0003, 0.00008};
+  change_criterion<AgreementCriterion>(c.gates[0]).apart = {0.0013, 0.0003, 0.00008};
   gate = judged();
   BOOST_TEST((gate.verdict == Verdict::fail));
   BOOST_TEST(holds(gate.message, "40 cells, t = 1 s: 0.031 % apart"), gate.message);
   // Alone it needs no uncertainty, and no four meshes.
-  c.gates[0].max.reset();
-  c.gates[0].apart = {0.00032, 0.00008};
-  c.gates[0].judged = {40, 80};
+  change_criterion<AgreementCriterion>(c.gates[0]).max.reset();
+  change_criterion<AgreementCriterion>(c.gates[0]).apart = {0.00032, 0.00008};
+  change_criterion<AgreementCriterion>(c.gates[0]).judged = {40, 80};
   c.gates[0].where.cells = {40, 80};
   gate = judged();
   BOOST_TEST((gate.verdict == Verdict::pass), gate.message);
@@ -312,10 +315,10 @@ BOOST_AUTO_TEST_CASE(methods_may_be_apart_by_a_part_of_the_value) {
 /// A gate on what a probe spans over some meshes.
 struct ProbeSettling : Fixture {
   ProbeSettling() {
-    GateSpec& gate = c.gates[0];
-    gate.kind = "settling";
-    gate.max = 0.001;
-    gate.judged = {40, 80};
+    c.gates[0].kind = "settling";
+    auto& settling = replace_criterion<SettlingCriterion>(c.gates[0]);
+    settling.max = 0.001;
+    settling.judged = {40, 80};
   }
 };
 
@@ -325,11 +328,11 @@ BOOST_FIXTURE_TEST_CASE(a_probe_settles_by_what_it_spans, ProbeSettling) {
   BOOST_TEST(gate.checks.size() == 4u);  // of two methods at two times
   BOOST_TEST(gate.checks[0].judged == 0.00046875 / 1.00015625, tt::tolerance(1e-9));
   BOOST_TEST(gate.headroom() > 0.5);
-  c.gates[0].judged = {20, 40, 80};  // a trend shows in the whole span: 0.0023
+  change_criterion<SettlingCriterion>(c.gates[0]).judged = {20, 40, 80};  // a trend shows in the whole span: 0.0023
   gate = judged();
   BOOST_TEST((gate.verdict == Verdict::fail));
   BOOST_TEST(holds(gate.message, "fem, t = 1 s: 1.002, 1.001, 1"), gate.message);
-  c.gates[0].judged = {40, 80};
+  change_criterion<SettlingCriterion>(c.gates[0]).judged = {40, 80};
   probe("mpm-musl", 40, 1) = 0.998;
   gate = judged();
   BOOST_TEST((gate.verdict == Verdict::fail));
@@ -458,7 +461,7 @@ BOOST_AUTO_TEST_CASE(an_order_in_time_needs_different_time_steps) {
   BOOST_TEST(holds(few.judged().message, "3 time steps, at least 4 are needed"));
   // Over the mesh, the same runs are too few.
   InTime over(2);
-  over.c.gates[0].over_time_step = false;
+  change_criterion<OrderCriterion>(over.c.gates[0]).over_time_step = false;
   BOOST_TEST((over.judged().verdict == Verdict::invalid));
   BOOST_TEST(holds(over.judged().message, "2 meshes, at least 4 are needed"));
 }
@@ -549,12 +552,12 @@ BOOST_AUTO_TEST_CASE(histories_settle_where_their_distances_fall) {
     BOOST_TEST(gate.checks[4 + k].predicted.value() == apart(h), tt::tolerance(1e-6));
     BOOST_TEST(gate.checks[4 + k].value == apart(h / 2), tt::tolerance(1e-6));
   }
-  both.c.gates[0].max = 0.2;  // more than second order
+  change_criterion<SettlingCriterion>(both.c.gates[0]).max = 0.2;  // more than second order
   BOOST_TEST((both.judged().verdict == Verdict::fail));
   BOOST_TEST(holds(gate.formula, "between the methods"), gate.formula);
 
   std::reverse(both.runs.begin(), both.runs.end());
-  both.c.gates[0].max = 0.5;
+  change_criterion<SettlingCriterion>(both.c.gates[0]).max = 0.5;
   const auto reversed = both.judged();
   BOOST_REQUIRE_EQUAL(reversed.checks.size(), 7u);
   for (std::size_t k = 0; k < 7; ++k) BOOST_TEST(reversed.checks[k].judged == gate.checks[k].judged);
@@ -623,7 +626,7 @@ BOOST_AUTO_TEST_CASE(the_same_history_twice_never_settles) {
   }
   for (const int cells : {10, 20, 40, 80}) {
     Settling other;
-    other.c.gates[0].max = 1e9;  // whatever the distances do beside it
+    change_criterion<SettlingCriterion>(other.c.gates[0]).max = 1e9;  // whatever the distances do beside it
     other.xx("fem", cells) = other.xx("mpm-musl", cells);
     other.invalid("the same");
   }
@@ -671,10 +674,10 @@ BOOST_AUTO_TEST_CASE(each_history_of_a_gauge_is_its_own) {
 // Gates of kind agreement know histories of gauges, too.
 BOOST_AUTO_TEST_CASE(histories_of_gauges_agree_as_those_of_a_platen_do) {
   Settling both;
-  GateSpec& gate = both.c.gates[0];
-  gate.kind = "agreement";
-  gate.max = 1;
-  gate.judged = {20, 40, 80};
+  both.c.gates[0].kind = "agreement";
+  auto& agreement = replace_criterion<AgreementCriterion>(both.c.gates[0]);
+  agreement.max = 1;
+  agreement.judged = {20, 40, 80};
   const auto result = both.judged();
   BOOST_TEST((result.verdict == Verdict::pass), result.message);
   BOOST_REQUIRE_EQUAL(result.checks.size(), 4u);

@@ -12,9 +12,14 @@
 #include <vector>
 
 #include "runner/input/constants.hpp"
+#include "runner/judge/bound.hpp"
+#include "runner/judge/limit.hpp"
+#include "runner/judge/order.hpp"
+#include "runner/judge/ratio.hpp"
 #include "tests/broken_text.hpp"
 #include "tests/case_figures.hpp"
 #include "tests/case_text.hpp"
+#include "tests/criteria.hpp"
 #include "tests/messages.hpp"
 #include "tests/text.hpp"
 
@@ -367,17 +372,17 @@ BOOST_AUTO_TEST_CASE(every_key_is_read) {
   BOOST_TEST((magic.where.cells == std::vector<int>{100, 200}));
   BOOST_TEST((magic.where.particles == std::vector<std::vector<double>>{{0.25, 0.75}}));
   BOOST_TEST((magic.times == std::vector<double>{0.5}));
-  BOOST_TEST(magic.max.value() == 1e-12);
+  BOOST_TEST(criterion<BoundCriterion>(magic).max == 1e-12);
   BOOST_TEST(!magic.slow);
   BOOST_TEST(magic.line == line_of(whole, "[[gate]]"));
   const GateSpec& slope = c.gates[1];
-  BOOST_TEST(slope.expect.value() == 0.5);
-  BOOST_TEST((slope.band.value() == std::array<double, 2>{0.4, 0.55}));
-  BOOST_TEST((slope.levels_min == 3 && slope.slow));
-  BOOST_TEST(c.gates[2].predict == "airy-step");
-  BOOST_TEST((c.gates[2].ratio.value() == std::array<double, 2>{0.98, 1.02}));
-  BOOST_TEST((c.gates[4].predict == "stability-limit" && c.gates[4].steps == 500));
-  BOOST_TEST((c.gates[5].outcome == "unstable" && c.gates[5].steps == 2000));
+  const auto& order = criterion<OrderCriterion>(slope);
+  BOOST_TEST((order.expect == 0.5 && order.band == std::array<double, 2>{0.4, 0.55} && order.levels_min == 3));
+  BOOST_TEST((slope.slow && slope.keeps_time_steps && !magic.keeps_time_steps));
+  const auto& theory = criterion<RatioCriterion>(c.gates[2]);
+  BOOST_TEST((theory.theory == "airy-step" && theory.ratio == std::array<double, 2>{0.98, 1.02}));
+  BOOST_TEST((criterion<RatioCriterion>(c.gates[4]).theory == "stability-limit" && c.gates[4].steps == 500));
+  BOOST_TEST((dynamic_cast<const BlowUpCriterion*>(c.gates[5].criterion.get()) && c.gates[5].steps == 2000));
 
   BOOST_REQUIRE_EQUAL(c.figures.size(), 1u);
   const FigureSpec& figure = c.figures[0];
@@ -448,7 +453,7 @@ BOOST_AUTO_TEST_CASE(a_row_of_bars_is_read) {
   BOOST_TEST((c.probes[0].at.value == 1.5 && c.probes[0].at.unit == "L"));
 
   BOOST_REQUIRE_EQUAL(c.gates.size(), 4u);
-  BOOST_TEST((c.gates[0].quantity == "contact.begin" && c.gates[0].predict == "impact"));
+  BOOST_TEST((c.gates[0].quantity == "contact.begin" && criterion<RatioCriterion>(c.gates[0]).theory == "impact"));
   BOOST_TEST((c.gates[0].where.parameters == std::map<std::string, std::vector<double>>{{"v0", {1}}}));
   BOOST_TEST((c.gates[1].quantity == "contact.duration.error" && c.gates[1].where.parameters == swept));
   BOOST_TEST((c.gates[2].kind == "exact" && c.gates[2].quantity == "contact.restitution"));

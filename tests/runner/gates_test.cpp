@@ -7,8 +7,11 @@
 
 #include "runner/app/case_file.hpp"
 #include "runner/input/leaf.hpp"
+#include "runner/judge/limit.hpp"
+#include "runner/judge/order.hpp"
 #include "runner/run/runner.hpp"
 #include "tests/case_text.hpp"
+#include "tests/criteria.hpp"
 
 using namespace diptych;
 using namespace diptych::runner;
@@ -132,8 +135,9 @@ BOOST_AUTO_TEST_CASE(errors_on_no_line_have_no_order_even_if_their_slope_is_righ
 }
 
 BOOST_AUTO_TEST_CASE(an_expected_order_against_theory_is_invalid) {
-  c.gates[0].expect = 2.0;
-  c.gates[0].band = {0.9, 2.1};
+  auto& order = change_criterion<OrderCriterion>(c.gates[0]);
+  order.expect = 2.0;
+  order.band = {0.9, 2.1};
   BOOST_TEST((judged(0).verdict == Verdict::invalid));
 }
 
@@ -177,7 +181,7 @@ BOOST_AUTO_TEST_CASE(a_blow_up_that_does_not_happen_fails) {
   gate.id = "detected";
   gate.kind = "limit";
   gate.quantity = "stable";
-  gate.outcome = "unstable";
+  replace_criterion<BlowUpCriterion>(gate);
   BOOST_TEST((judge(c, gate, runs).verdict == Verdict::fail));
   for (auto& run : runs) run.status = "unstable";
   BOOST_TEST((judge(c, gate, runs).verdict == Verdict::pass));

@@ -11,11 +11,14 @@
 #include "analytic/impact_lattice.hpp"
 #include "reports/page.hpp"
 #include "runner/app/case_file.hpp"
+#include "runner/compare/quantities.hpp"
 #include "runner/input/plate_build.hpp"
 #include "runner/judge/gates.hpp"
+#include "runner/judge/ratio.hpp"
 #include "runner/run/runner.hpp"
 #include "tests/case_figures.hpp"
 #include "tests/case_text.hpp"
+#include "tests/criteria.hpp"
 #include "tests/made_runs.hpp"
 #include "tests/text.hpp"
 
@@ -363,7 +366,9 @@ BOOST_AUTO_TEST_CASE(a_step_is_measured_as_it_was_made) {
   BOOST_TEST((run.gauges[0].id == "near" && run.gauges[1].id == "far" && run.gauges[1].from_face == 6e-3));
   BOOST_TEST((run.gauges[0].xx.at(3) == -1.2e9 && run.gauges[0].yy.size() == step.time.size()));
   BOOST_TEST((run.gauges[0].dilatancy.at(0) == 0.001 && run.gauges[0].time.at(9) == 10 * 1e-6));
-  for (const std::string& name : gauge_measures) BOOST_TEST(run.measures.contains("gauge.near." + name), name);
+  for (const std::string& name :
+       quantity_names(failing_case(), {Quantity::Sort::gauge_reading, Quantity::Sort::failure}))
+    BOOST_TEST(run.measures.contains(name), name);
 }
 
 BOOST_AUTO_TEST_CASE(an_overshoot_after_the_release_is_none) {
@@ -560,8 +565,9 @@ BOOST_AUTO_TEST_CASE(the_lattice_predicts_small_runs_to_round_off) {
   for (auto& run : other) run.measures["gauge.near.plateau.predicted"] *= 1.001;
   BOOST_TEST((judge(c, c.gates[0], other).verdict == Verdict::fail));
   Case exact = c;
-  exact.gates[0].predict = "plate-impact";
-  exact.gates[0].ratio = {0.97, 1.03};
+  auto& measured = replace_criterion<RatioCriterion>(exact.gates[0]);
+  measured.theory = "plate-impact";
+  measured.ratio = {0.97, 1.03};
   BOOST_TEST((judge(exact, exact.gates[0], other).verdict == Verdict::pass));
   for (auto& run : other) run.measures.erase("gauge.near.plateau.exact");
   BOOST_TEST((judge(exact, exact.gates[0], other).verdict == Verdict::invalid));

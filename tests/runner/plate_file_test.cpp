@@ -13,9 +13,15 @@
 #include "runner/input/constants.hpp"
 #include "runner/input/leaf.hpp"
 #include "runner/input/plate_build.hpp"
+#include "runner/judge/agreement.hpp"
+#include "runner/judge/bound.hpp"
+#include "runner/judge/order.hpp"
+#include "runner/judge/ratio.hpp"
+#include "runner/judge/settling.hpp"
 #include "tests/broken_text.hpp"
 #include "tests/case_figures.hpp"
 #include "tests/case_text.hpp"
+#include "tests/criteria.hpp"
 #include "tests/messages.hpp"
 #include "tests/text.hpp"
 
@@ -442,11 +448,15 @@ BOOST_AUTO_TEST_CASE(every_key_of_a_damaging_plate_is_read) {
   BOOST_REQUIRE_EQUAL(c.gates.size(), 4u);
   BOOST_TEST((c.gates[0].where.variant == std::vector<std::string>{"tracked"}));
   const GateSpec& radius = c.gates[1];
-  BOOST_TEST((radius.kind == "agreement" && radius.quantity == "probe.r" && radius.max == 1.0 && !radius.shrinks));
-  BOOST_TEST((radius.judged == std::vector<int>{40, 80} && radius.times == std::vector<double>{1e-4}));
+  const auto& of_radius = criterion<AgreementCriterion>(radius);
+  BOOST_TEST((radius.kind == "agreement" && radius.quantity == "probe.r"));
+  BOOST_TEST((of_radius.max == 1.0 && !of_radius.shrinks && of_radius.judged == std::vector<int>{40, 80}));
+  BOOST_TEST((radius.times == std::vector<double>{1e-4}));
   BOOST_TEST((radius.where.variant == std::vector<std::string>{""}));
-  BOOST_TEST((c.gates[2].level == 0.06 && c.gates[2].shrinks));
-  BOOST_TEST((c.gates[3].expect == 3.0 && c.gates[3].max == 0.5));
+  const auto& of_contour = criterion<AgreementCriterion>(c.gates[2]);
+  BOOST_TEST((of_contour.level == 0.06 && of_contour.shrinks));
+  const auto& bound = criterion<BoundCriterion>(c.gates[3]);
+  BOOST_TEST((bound.expect == 3.0 && bound.max == 0.5));
   BOOST_REQUIRE_EQUAL(c.figures.size(), 4u);
   const reports::Case shown = drawn_case(c);
   const reports::PlateFigure& contours = shown.plate_figures.at(0);
@@ -469,7 +479,8 @@ BOOST_AUTO_TEST_CASE(every_key_of_a_mode_and_of_diffusion_alone_is_read) {
   const PlateExact& exact = mode.plate->exact;
   BOOST_TEST((exact.solution == "lame-mode" &&
               exact.parameters == analytic::SolutionParameters{{"mode", 2}, {"amplitude", -1e-3}, {"start", 1}}));
-  BOOST_TEST((mode.gates[1].levels_min == 3 && !mode.gates[1].over_time_step));
+  const auto& slope = criterion<OrderCriterion>(mode.gates[1]);
+  BOOST_TEST((slope.levels_min == 3 && !slope.over_time_step));
 
   BOOST_REQUIRE_EQUAL(message(pure), "");
   const Case c = parse_case(pure, "plate.toml");
@@ -480,7 +491,7 @@ BOOST_AUTO_TEST_CASE(every_key_of_a_mode_and_of_diffusion_alone_is_read) {
   BOOST_TEST(c.plate->initial_concentration == "1 + cos(pi*x/Lx)*cos(pi*y/Ly)");
   BOOST_TEST((c.plate->exact.solution == "corner-source" && c.plate->exact.core() == 0.1));
   BOOST_TEST((c.variants[0].plate.diffusion->scheme == diffusion::Scheme::backward_euler));
-  BOOST_TEST(c.gates[0].over_time_step);
+  BOOST_TEST(criterion<OrderCriterion>(c.gates[0]).over_time_step);
   BOOST_TEST((c.plate_probes[0].x == 1 && c.plate_probes[0].y == 1 && c.plate_probes[1].reads == "total"));
 }
 
@@ -504,7 +515,7 @@ BOOST_AUTO_TEST_CASE(what_is_left_out_is_as_said) {
   BOOST_TEST((evolution.diffusion->clip_strain && evolution.diffusion->drift == 0));
   BOOST_TEST((evolution.diffusion->scheme == diffusion::Scheme::sub_cycled));
   BOOST_TEST((evolution.diffusion->reading == diffusion::Reading::isotropic));
-  BOOST_TEST((c.plate->exact.core() == 0 && c.gates[1].shrinks));
+  BOOST_TEST((c.plate->exact.core() == 0 && criterion<AgreementCriterion>(c.gates[1]).shrinks));
   BOOST_TEST((c.axes[0].particles == std::vector<std::vector<double>>{{0.25, 0.75}}));  // 2 × 2 in a cell
 
   const Case mode = good(elastic_mode, "start = \"moving\"\n", "");
@@ -1157,8 +1168,11 @@ BOOST_AUTO_TEST_CASE(every_key_of_a_failure_wave_is_read) {
   BOOST_REQUIRE_EQUAL(c.gauges.size(), 2u);
   BOOST_TEST((c.gauges[0].id == "near" && c.gauges[0].from_face == 4.5e-3 && c.gauges[1].id == "far"));
   BOOST_REQUIRE_EQUAL(c.gates.size(), 6u);
-  BOOST_TEST((c.gates[0].kind == "settling" && c.gates[0].quantity == "gauge.near.yy" && c.gates[0].max == 0.9));
-  BOOST_TEST((c.gates[1].predict == "diffusion-front" && c.gates[2].expect == 1500 && c.gates[3].expect == 1));
+  BOOST_TEST((c.gates[0].kind == "settling" && c.gates[0].quantity == "gauge.near.yy"));
+  BOOST_TEST(criterion<SettlingCriterion>(c.gates[0]).max == 0.9);
+  BOOST_TEST(criterion<RatioCriterion>(c.gates[1]).theory == "diffusion-front");
+  BOOST_TEST(criterion<BoundCriterion>(c.gates[2]).expect.value() == 1500);
+  BOOST_TEST(criterion<BoundCriterion>(c.gates[3]).expect.value() == 1);
   BOOST_REQUIRE_EQUAL(c.figures.size(), 2u);
   BOOST_TEST((c.figures[0].kind == "gauges" && c.figures[1].kind == "failure"));
   BOOST_TEST((c.figures[1].pictures == std::vector<std::string>{"fig16"}));
