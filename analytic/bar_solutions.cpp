@@ -54,9 +54,9 @@ Misfits misfits_of_mode(const BarSetting& s) {
 /// Of solutions for bars that fly, strike and yield.
 Misfits misfits_of_bars(const BarSetting& s) {
   Misfits found;
-  for (const std::string& law : s.laws)
-    if (law != "elastic" && law != "hardening")
-      found.push_back("together with material.model = \"" + law + "\"; allowed: \"elastic\" or \"hardening\"");
+  for (const std::string& law : s.curved)
+    found.push_back("together with material.model = \"" + law +
+                    "\"; allowed: models whose curve of first loading is straight or bilinear");
   if (s.body_force) found.push_back("together with [body_force]; allowed: no body force");
   if (s.starts_otherwise) found.push_back("together with [initial]; allowed: bars with one velocity each");
   return found;

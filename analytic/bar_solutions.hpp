@@ -12,16 +12,17 @@ namespace diptych::analytic {
 
 /// Bars in a row as an exact solution sees them: nothing of how they are solved.
 struct BarSetting {
-  std::vector<ImpactBar> bars;     ///< left to right, at least one; a yield stress that is infinite: elastic
-  std::vector<std::string> laws;   ///< of each bar, as case files call them
-  BarEnd left, right;              ///< of the first and of the last bar
-  double until = 0;                ///< last time that is asked for [s]
-  bool bonded = false;             ///< bars that touch hold together
-  SolutionParameters parameters;   ///< those of the row
-  bool flies = false;              ///< a bar has a velocity of its own, 0 perhaps
-  bool body_force = false;         ///< there is one
-  bool starts_otherwise = false;   ///< with fields of stress or velocity
-  std::vector<std::string> loads;  ///< their histories: "step", "ramp", "impulse" or "expression"
+  std::vector<ImpactBar> bars;      ///< left to right, at least one; a yield stress that is infinite: elastic
+  std::vector<std::string> laws;    ///< of each bar, as case files call them
+  std::vector<std::string> curved;  ///< of these laws, those whose curve of first loading is not straight or bilinear
+  BarEnd left, right;               ///< of the first and of the last bar
+  double until = 0;                 ///< last time that is asked for [s]
+  bool bonded = false;              ///< bars that touch hold together
+  SolutionParameters parameters;    ///< those of the row
+  bool flies = false;               ///< a bar has a velocity of its own, 0 perhaps
+  bool body_force = false;          ///< there is one
+  bool starts_otherwise = false;    ///< with fields of stress or velocity
+  std::vector<std::string> loads;   ///< their histories: "step", "ramp", "impulse" or "expression"
 };
 
 struct BarSolution {

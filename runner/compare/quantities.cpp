@@ -59,10 +59,13 @@ Needed two_bars(const std::string&, const Case& c) {
 }
 
 Needed yield(const std::string&, const Case& c) {
-  const bool yields = std::any_of(c.bars.begin(), c.bars.end(), [](const BarSpec& bar) {
-    return std::visit([](const auto& law) { return law.yields; }, bar.material);
+  if (std::any_of(c.bars.begin(), c.bars.end(), [](const BarSpec& bar) { return material::yields(bar.material); }))
+    return {};
+  Names that_yield;
+  material::for_each_law([&]<class Law>() {
+    if (Law::yields) that_yield.push_back(Law::model);
   });
-  return yields ? Needed{} : Lack{" of elastic bars", "with a bar of model = \"hardening\""};
+  return Lack{" of elastic bars", "with a bar of model = " + joined(that_yield)};
 }
 
 Needed exact_impact(const std::string&, const Case& c) {

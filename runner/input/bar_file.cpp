@@ -21,15 +21,41 @@ std::string read_expression(Table& t, const std::string& key, const Names& varia
   return expression;
 }
 
+material::Material read_elastic(Table&, double E, double rho) { return material::Elastic{E, rho}; }
+
+material::Material read_hardening(Table& t, double E, double rho) {
+  const double E_t = t.need("E_t", not_negative()), yield_stress = t.need("yield_stress", positive());
+  if (E > 0 && E_t >= E) t.place("E_t").refuse(words(E_t), "0 <= E_t < E = " + words(E));
+  return material::Hardening{E, rho, E_t, yield_stress};
+}
+
+/// A model of [material]: its keys beside E and rho, and how they are read.
+struct Model {
+  std::string name;
+  Names keys;
+  material::Material (*read)(Table&, double E, double rho);
+};
+
+const std::vector<Model> models{
+    {material::Elastic::model, {}, read_elastic},
+    {material::Hardening::model, {"E_t", "yield_stress"}, read_hardening},
+};
+
+/// Those that have the key.
+Names models_with(const std::string& key) {
+  Names names;
+  for (const Model& model : models)
+    if (key == "model" || contains(model.keys, key)) names.push_back(model.name);
+  return names;
+}
+
 material::Material read_material(Table& t) {
-  const std::string model = t.need("model", one_of({"elastic", "hardening"}));
+  const std::string chosen = t.need("model", one_of(models_with("model")));
   const double E = t.need("E", positive()), rho = t.need("rho", positive());
   material::Material material = material::Elastic{E, rho};
-  const bool hardens = t.applies("E_t", "model", model, {"hardening"});
-  if (t.applies("yield_stress", "model", model, {"hardening"}) && hardens) {
-    const double E_t = t.need("E_t", not_negative()), yield_stress = t.need("yield_stress", positive());
-    if (E > 0 && E_t >= E) t.place("E_t").refuse(words(E_t), "0 <= E_t < E = " + words(E));
-    material = material::Hardening{E, rho, E_t, yield_stress};
+  for (const Model& model : models) {
+    for (const std::string& key : model.keys) t.applies(key, "model", chosen, models_with(key));
+    if (model.name == chosen) material = model.read(t, E, rho);
   }
   const double speed = material::wave_speed(material);
   if (E > 0 && rho > 0 && (!std::isfinite(speed) || speed <= 0))
@@ -247,8 +273,13 @@ void read_bar_case(Table& file, Case& c) {
   });
   file.table("model", [&](Table& t) {
     c.convected = t.get("displacements", one_of({"infinitesimal", "finite"})) == "finite";
-    c.features = t.need("features", set_of(one_of({"elastic", "plasticity", "body-force", "boundary-layer", "contact",
-                                                   "convection", "viscosity"})));
+    Names known;
+    material::for_each_law([&]<class Law>() {
+      if (!contains(known, Law::feature)) known.push_back(Law::feature);
+    });
+    for (const char* more : {"body-force", "boundary-layer", "contact", "convection", "viscosity"})
+      known.push_back(more);
+    c.features = t.need("features", set_of(one_of(known)));
     std::sort(c.features.begin(), c.features.end());
     if (bars_are_read) check_features(t.place("features"), c);
   });

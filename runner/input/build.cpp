@@ -129,8 +129,8 @@ std::vector<analytic::Front> CloserBars::fronts(double t) const {
 std::string words_of(const BarSpec& bar) {
   std::string text = fmt::format("E = {:g}, ρ = {:g}, L = {:g}", material::youngs_modulus(bar.material),
                                  material::density(bar.material), bar.length);
-  if (const auto* law = std::get_if<material::Hardening>(&bar.material))
-    text += fmt::format(", E_t = {:g}, yield stress {:g}", law->tangent_modulus, law->yield_stress);
+  for (const material::Parameter& more : material::parameters(bar.material))
+    text += fmt::format(", {} {:g}", more.words, more.value);
   return text;
 }
 
@@ -246,12 +246,14 @@ analytic::BarSetting bar_setting(const Case& c, int cells) {
     const material::Material& m = c.bars[b].material;
     analytic::ImpactBar bar{begins[b], c.bars[b].length, material::youngs_modulus(m), material::density(m),
                             velocity_of(c, b)};
-    if (const auto* law = std::get_if<material::Hardening>(&m)) {
-      bar.yield_stress = law->yield_stress;
-      bar.tangent_modulus = law->tangent_modulus;
+    setting.laws.push_back(material::model(m));
+    if (const auto curve = material::bilinear(m)) {
+      bar.yield_stress = curve->yield_stress;
+      bar.tangent_modulus = curve->tangent_modulus;
+    } else {
+      setting.curved.push_back(setting.laws.back());
     }
     setting.bars.push_back(bar);
-    setting.laws.push_back(material::model(m));
     setting.flies = setting.flies || !c.bars[b].velocity.empty();
   }
   setting.left = bar_end(c, End::left);
@@ -298,16 +300,7 @@ Scene scaled(const Scene& scene, const PowersOfTwo& by) {
   for (Bar& bar : out.bars) {
     bar.begin *= by.length;
     bar.length *= by.length;
-    if (auto* elastic = std::get_if<material::Elastic>(&bar.material)) {
-      elastic->youngs_modulus *= by.modulus;
-      elastic->density *= by.density;
-    }
-    if (auto* hardening = std::get_if<material::Hardening>(&bar.material)) {
-      hardening->youngs_modulus *= by.modulus;
-      hardening->tangent_modulus *= by.modulus;
-      hardening->density *= by.density;
-      hardening->yield_stress *= by.stress;
-    }
+    bar.material = material::scaled(bar.material, {by.modulus, by.stress, by.density});
     if (bar.initial_velocity) {
       bar.initial_velocity = [=, f = bar.initial_velocity](double x) { return by.velocity() * f(x / by.length); };
     }

@@ -21,12 +21,9 @@ bool bar_is_known(const Case& c) {
 /// The features that the scene switches on, each with the key that does it.
 std::map<std::string, std::string> features_in_use(const Case& c) {
   std::map<std::string, std::string> used;
-  // Elastic bars beside others take the others' law, see material::laws.
-  const auto other = std::find_if(c.bars.begin(), c.bars.end(), [](const BarSpec& bar) {
-    return !std::holds_alternative<material::Elastic>(bar.material);
-  });
-  const material::Material& law = (other == c.bars.end() ? c.first() : *other).material;
-  used[material::feature(law)] = fmt::format("material.model = \"{}\"", material::model(law));
+  for (const BarSpec& bar : c.bars)
+    used[material::feature(bar.material)] = "material.model = " + words(material::model(bar.material));
+  if (used.size() > 1) used.erase(material::Elastic::feature);  // elastic bars beside others run under the others' law
   if (c.bars.size() > 1) used["contact"] = "a second [[bar]]";
   if (c.viscosity) used["viscosity"] = "[viscosity]";
   if (!c.body_force.empty()) used["body-force"] = "[body_force]";
@@ -134,6 +131,13 @@ void check_not_negative(const Place& place, const std::string& formula, const Ca
 
 void check_bars(const Place& place, const Case& c) {
   if (c.bars.size() == 1 || !bar_is_known(c)) return;
+  std::set<std::string> laws;
+  for (const BarSpec& bar : c.bars) laws.insert(material::model(bar.material));
+  laws.erase(material::Elastic::model);
+  if (laws.size() > 1)
+    place.say("found bars of material.model = " + joined(Names(laws.begin(), laws.end())) +
+              " beside one another; allowed: bars of one model, and \"" + material::Elastic::model +
+              "\" ones beside them");
   for (const int cells : all_axes(c).cells) {
     const double h = c.first().length / cells;
     for (std::size_t b = 1; b < c.bars.size(); ++b) {

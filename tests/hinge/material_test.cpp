@@ -2,9 +2,40 @@
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+#include <stdexcept>
+#include <string>
+#include <variant>
+#include <vector>
 
 using namespace diptych::material;
+using namespace std::string_literals;
 namespace tt = boost::test_tools;
+
+namespace {
+
+/// A law of which the program knows nothing: σ = E ε (1 − |ε|/2), whose curve is not bilinear.
+struct Softening {
+  double youngs_modulus, density;
+  struct State {
+    double stress = 0, strain = 0;
+  };
+  static constexpr const char* model = "softening";
+  static constexpr const char* feature = "softening";
+  static constexpr bool yields = false;
+  static Softening of_elastic(const Elastic& e) { return {e.youngs_modulus, e.density}; }
+  std::vector<Parameter> parameters() const { return {}; }
+  Softening scaled(const Factors& by) const { return {youngs_modulus * by.modulus, density * by.density}; }
+  double elastic_wave_speed() const { return std::sqrt(youngs_modulus / density); }
+  double stored(const State& s) const { return youngs_modulus * s.strain * s.strain / 2; }
+  Response update(State& s, double strain_increment) const {
+    s.strain += strain_increment;
+    s.stress = youngs_modulus * s.strain * (1 - std::abs(s.strain) / 2);
+    return {s.stress, stored(s), 0, elastic_wave_speed()};
+  }
+};
+using Three = std::variant<Elastic, Hardening, Softening>;
+
+}  // namespace
 
 BOOST_AUTO_TEST_SUITE(material)
 
@@ -77,6 +108,39 @@ BOOST_AUTO_TEST_CASE(stress_exactly_at_yield_is_still_elastic) {
   BOOST_TEST(r.stress == 1.0);
   BOOST_TEST(r.dissipated == 0.0);
   BOOST_TEST(r.wave_speed == law.elastic_wave_speed());
+}
+
+BOOST_AUTO_TEST_CASE(bodies_beside_one_another_have_one_law) {
+  const std::vector<Material> alone{Elastic{1e4, 1}, Elastic{2e4, 2}};
+  BOOST_TEST(std::get<std::vector<Elastic>>(laws(alone)).at(1).youngs_modulus == 2e4);
+  const std::vector<Material> mixed{Elastic{1e4, 3}, Hardening{2e4, 2, 1e3, 75}};
+  const auto both = std::get<std::vector<Hardening>>(laws(mixed));
+  BOOST_TEST((both.at(0).youngs_modulus == 1e4 && both[0].density == 3 && std::isinf(both[0].yield_stress)));
+  BOOST_TEST((both.at(1).yield_stress == 75 && both[1].tangent_modulus == 1e3));
+}
+
+// A third law is none of the two that there are: it takes elastic bodies beside it, and no other law.
+BOOST_AUTO_TEST_CASE(a_third_law_is_a_law_of_its_own) {
+  const std::vector<Three> mixed{Elastic{1e4, 3}, Softening{2e4, 2}};
+  const auto both = std::get<std::vector<Softening>>(laws(mixed));
+  BOOST_TEST((both.at(0).youngs_modulus == 1e4 && both[0].density == 3 && both.at(1).youngs_modulus == 2e4));
+  BOOST_CHECK_THROW(laws(std::vector<Three>{Hardening{1e4, 1, 0, 75}, Softening{2e4, 2}}), std::invalid_argument);
+  BOOST_CHECK_THROW(laws(std::vector<Three>{Softening{2e4, 2}, Elastic{1, 1}, Hardening{1e4, 1, 0, 75}}),
+                    std::invalid_argument);
+  BOOST_TEST(!bilinear(Three(Softening{1, 1})).has_value());
+}
+
+BOOST_AUTO_TEST_CASE(a_law_says_what_it_is) {
+  const Material elastic = Elastic{1e4, 1}, hardening = Hardening{1e4, 2, 2500, 75};
+  BOOST_TEST((model(elastic) == "elastic"s && feature(elastic) == "elastic"s && !yields(elastic)));
+  BOOST_TEST((model(hardening) == "hardening"s && feature(hardening) == "plasticity"s && yields(hardening)));
+  BOOST_TEST(parameters(elastic).empty());
+  BOOST_REQUIRE_EQUAL(parameters(hardening).size(), 2u);
+  BOOST_TEST((parameters(hardening)[0].value == 2500 && parameters(hardening)[1].value == 75));
+  BOOST_TEST((std::isinf(bilinear(elastic)->yield_stress) && bilinear(hardening)->tangent_modulus == 2500));
+  const auto other = std::get<Hardening>(scaled(hardening, {4, 32, 16}));
+  BOOST_TEST((other.youngs_modulus == 4e4 && other.tangent_modulus == 1e4));
+  BOOST_TEST((other.yield_stress == 2400 && other.density == 32));
 }
 
 BOOST_AUTO_TEST_CASE(nan_is_not_swallowed) {

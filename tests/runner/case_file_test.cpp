@@ -814,6 +814,16 @@ BOOST_AUTO_TEST_CASE(bars_of_a_row) {
   expect("bar = []\n", "bar", {"bar", "an empty list", "[bar]"});
 }
 
+/// A law that no case file can name would never run.
+BOOST_AUTO_TEST_CASE(every_law_of_a_bar_can_be_named) {
+  const std::string models = message(replaced(whole, "model = \"elastic\"", "model = \"none\""));
+  const std::string features = message(replaced(whole, "features = [\"elastic\"]", "features = [\"none\"]"));
+  material::for_each_law([&]<class Law>() {
+    BOOST_TEST(holds(models, '"' + std::string(Law::model) + '"'), models);
+    BOOST_TEST(holds(features, '"' + std::string(Law::feature) + '"'), features);
+  });
+}
+
 BOOST_AUTO_TEST_CASE(materials_of_bars) {
   const std::string own_material =
       "material = { model = \"hardening\", E = 4e4, rho = 4, E_t = 1e4, yield_stress = 60 }";
