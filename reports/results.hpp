@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "reports/bar_fields.hpp"
 #include "reports/field_results.hpp"
 #include "reports/look.hpp"
 #include "reports/page_results.hpp"
@@ -63,6 +64,7 @@ struct Sample {
   std::map<std::string, Curve> exact_curves;  ///< field -> exact field on a fine line
   std::optional<PlateFields> plate = {};      ///< of a plate with damage
   std::vector<VtuPiece> files = {};           ///< all fields of a plate, filled only where they are asked for
+  std::vector<BarPoints> bar_points = {};     ///< likewise of bars
 };
 
 /// One line of a run's energy and momentum ledger, in case units; the fields are those of the solvers' books.

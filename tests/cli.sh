@@ -19,6 +19,7 @@ expect 14 'not in range' "$program" gate bar.energy -j 0
 expect 0 '^DIPTYCH-VERDICT PASS gates=2/2 passed=2' "$program" gate bar.energy
 expect 0 'bar.energy/repeat: PASS' "$program" explain bar.energy/repeat
 expect 0 'shadow-energy' "$program" list bar.energy
+expect 0 '^max = 1e-12$' "$program" list --declarations bar.energy/shadow-energy
 expect 0 'fixed–free' "$program" show bar.energy
 
 # A scene of one's own, and what happens to a gate that cannot hold.
@@ -67,6 +68,17 @@ expect 14 "did you mean 'close'" "$program" gate own.toml/clos
 expect 0 'ledgers/own' "$program" run own.toml --ledger --out results
 expect 0 '^time,kinetic,strain,dissipated,viscous,contact,scheme,work,lost,momentum,impulse' sh -c 'cat results/ledgers/own/fem*.csv'
 expect 14 'cannot write to' "$program" run own.toml --out own.toml/results
+
+# One run of it alone, and its fields.
+expect 0 'fields/own/fem_N=50_C=0.5.elements.csv' "$program" run --only 'fem N=50 C=0.5' own.toml --fields --out one
+expect 0 '^t .L/c.,bar,x .m.,displacement .m.,exact displacement .m.,velocity .m/s.,exact velocity .m/s.$' \
+  cat one/fields/own/fem_N=50_C=0.5.nodes.csv
+expect 0 '^51 ' sh -c 'wc -l <one/fields/own/fem_N=50_C=0.5.elements.csv | sed "s/$/ /"'
+expect 0 '^1 ' sh -c 'wc -l <one/results.jsonl | sed "s/$/ /"'
+expect 0 'particles.csv' "$program" run own.toml --only 'mpm*' --only 'fem N=100*' --fields --out two
+expect 0 '^3 ' sh -c 'wc -l <two/results.jsonl | sed "s/$/ /"'
+expect 14 "no run 'fem N=51 C=0.5' .did you mean 'fem N=50 C=0.5'" "$program" run own.toml --only 'fem N=51 C=0.5'
+expect 14 '^  mpm-musl N=100 C=0.5 ppc=1$' "$program" run own.toml --only 'mpm-musl'
 expect 12 'cannot write|standard output' sh -c "'$program' list >/dev/full"
 sed 's/max = 0.2/max = 1e-9/' own.toml > strict.toml
 expect 10 'DIPTYCH-VERDICT FAIL gates=1/1 passed=0' "$program" gate strict.toml

@@ -7,10 +7,11 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <sstream>
+#include <utility>
 
 #include "runner/app/case_file.hpp"
 #include "runner/app/provenance.hpp"
+#include "runner/run/run_leaf.hpp"
 
 namespace diptych::runner {
 namespace {
@@ -19,12 +20,47 @@ namespace fs = std::filesystem;
 
 fs::path own_cases() { return source_directory() / "cases"; }
 
-std::map<std::string, std::string> read_lock() {
-  std::map<std::string, std::string> lock;
+/// What cases and their gates declare, by the id of the case and of the gate; of the case's scene that is "".
+using Declarations = std::map<std::pair<std::string, std::string>, Declaration>;
+
+std::string name_of(const Declarations::key_type& id) {
+  return id.second.empty() ? id.first : id.first + '/' + id.second;
+}
+
+Declarations declared_in(const std::vector<Case>& cases) {
+  Declarations all;
+  for (const Case& c : cases) {
+    all[{c.id, ""}] = c.scene;
+    for (const GateSpec& gate : c.gates) all[{c.id, gate.id}] = gate.declaration;
+  }
+  return all;
+}
+
+/// Throws InputError where the file is not as declarations() writes it: a line that is passed over would lock nothing.
+Declarations read_lock() {
+  Declarations lock;
+  Declaration* section = nullptr;
   std::ifstream in(own_cases() / "gates.lock");
+  int number = 0;
+  const auto refuse = [&](const std::string& found, const std::string& allowed) {
+    throw InputError(fmt::format("cases/gates.lock:{}: found {}; allowed: {}", number, found, allowed));
+  };
   for (std::string line; std::getline(in, line);) {
-    const auto space = line.find(' ');
-    if (space != std::string::npos) lock[line.substr(0, space)] = line.substr(space + 1);
+    ++number;
+    if (line.empty()) continue;
+    if (line.starts_with('[') && line.ends_with(']')) {
+      const std::string name = line.substr(1, line.size() - 2);
+      const auto slash = name.find('/');
+      const auto [place, is_new] =
+          lock.try_emplace({name.substr(0, slash), slash == name.npos ? "" : name.substr(slash + 1)});
+      if (!is_new) refuse(line + " twice", "each case and gate once");
+      section = &place->second;
+      continue;
+    }
+    const auto equals = line.find(" = ");
+    if (!section || equals == line.npos) refuse(words(line), "[case], [case/gate] and below it a key = value a line");
+    const std::string key = line.substr(0, equals);
+    if (!section->emplace(key, line.substr(equals + 3)).second) refuse(words(key) + " twice", "each key once");
   }
   return lock;
 }
@@ -115,39 +151,82 @@ std::vector<Case> select_cases(const std::vector<std::string>& selectors) {
   return merged;
 }
 
-std::string declarations(const std::vector<Case>& cases) {
-  std::vector<std::string> lines;
-  for (const Case& c : cases) {
-    lines.push_back(fmt::format("{} {}\n", c.id, c.scene));
-    for (const GateSpec& gate : c.gates) lines.push_back(fmt::format("{}/{} {}\n", c.id, gate.id, gate.declaration));
+void keep_runs(std::vector<Case>& cases, const std::vector<std::string>& labels) {
+  Names known;
+  std::vector<bool> met(labels.size());
+  for (Case& c : cases) {
+    std::vector<Axes> kept;
+    for (const Leaf& leaf : leaves(c)) {
+      known.push_back(describe(*case_of(c, leaf), leaf).label());
+      bool wanted = false;
+      for (std::size_t i = 0; i < labels.size(); ++i) {
+        if (fnmatch(labels[i].c_str(), known.back().c_str(), 0) != 0) continue;
+        wanted = met[i] = true;
+      }
+      if (!wanted) continue;
+      Axes one;
+      one.method = {leaf.method};
+      one.cells = {leaf.cells};
+      one.courant = {leaf.courant};
+      if (!leaf.particles.empty()) one.particles = {leaf.particles};
+      for (const auto& [name, value] : leaf.parameters) one.parameters[name] = {value};
+      one.variant = {leaf.variant};
+      kept.push_back(one);
+    }
+    c.axes = kept;
   }
-  std::sort(lines.begin(), lines.end());
-  return listed(lines, "");
+  std::erase_if(cases, [](const Case& c) { return c.axes.empty(); });
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (met[i]) continue;
+    const auto method = [](const std::string& label) { return label.substr(0, label.find(' ')); };
+    Names near;
+    for (const std::string& label : known)
+      if (method(label) == method(labels[i])) near.push_back(label);
+    const std::string hint = nearest(labels[i], known);
+    throw InputError(fmt::format("--only: no run '{}'{}; there are\n  {}", labels[i],
+                                 hint.empty() ? "" : fmt::format(" (did you mean '{}'?)", hint),
+                                 listed(near.empty() ? known : near, "\n  ")));
+  }
+}
+
+std::string declarations(const std::vector<Case>& cases) {
+  std::string text;
+  for (const auto& [id, declaration] : declared_in(cases)) {
+    text += fmt::format("{}[{}]\n", text.empty() ? "" : "\n", name_of(id));
+    for (const auto& [key, value] : declaration) text += key + " = " + value + '\n';
+  }
+  return text;
 }
 
 std::vector<std::string> differences_from_lock(const std::vector<Case>& cases, bool whole) {
+  std::vector<Case> own = cases;
+  std::erase_if(own, [](const Case& c) { return !comes_with_program(c); });
+  if (own.empty() && !whole) return {};
+  const Declarations all = declared_in(own), lock = read_lock();
   std::vector<std::string> differences;
-  const auto lock = read_lock();
-  std::map<std::string, bool> declared;
-  for (const Case& c : cases) {
-    if (!comes_with_program(c)) continue;
-    const auto compare = [&](const std::string& name, const std::string& declaration) {
-      declared[name] = true;
-      const auto locked = lock.find(name);
-      if (locked == lock.end()) {
-        differences.push_back(name + " is not in cases/gates.lock");
-      } else if (locked->second != declaration) {
+  for (const auto& [id, declared] : all) {
+    const std::string name = name_of(id);
+    const auto place = lock.find(id);
+    if (place == lock.end()) {
+      differences.push_back(name + " is not in cases/gates.lock");
+      continue;
+    }
+    const Declaration& locked = place->second;
+    for (const auto& [key, value] : declared) {
+      const auto old = locked.find(key);
+      if (old == locked.end())
+        differences.push_back(fmt::format("{}: {} = {} is not in cases/gates.lock", name, key, value));
+      else if (old->second != value)
+        differences.push_back(fmt::format("{}: {} = {} is locked as {}", name, key, value, old->second));
+    }
+    for (const auto& [key, value] : locked)
+      if (!declared.contains(key))
         differences.push_back(
-            fmt::format("{} is declared as\n    {}\n  but locked as\n    {}", name, declaration, locked->second));
-      }
-    };
-    compare(c.id, c.scene);
-    for (const GateSpec& gate : c.gates) compare(c.id + "/" + gate.id, gate.declaration);
+            fmt::format("{}: {} = {} is in cases/gates.lock but the case does not declare it", name, key, value));
   }
   if (whole) {
-    for (const auto& [name, declaration] : lock) {
-      if (!declared.count(name)) differences.push_back(name + " is in cases/gates.lock but no case declares it");
-    }
+    for (const auto& [id, declaration] : lock)
+      if (!all.contains(id)) differences.push_back(name_of(id) + " is in cases/gates.lock but no case declares it");
   }
   return differences;
 }

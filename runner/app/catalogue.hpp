@@ -15,11 +15,16 @@ std::vector<Case> all_cases();
 /// that gate is kept. Throws InputError where a selector fits nothing, with the nearest id.
 std::vector<Case> select_cases(const std::vector<std::string>& selectors);
 
-/// "case scene" and "case/gate declaration", a line each, sorted: the content of cases/gates.lock. A gate is loosened
-/// by a wider tolerance, and as well by fewer meshes or methods.
+/// Keeps of each case the runs whose label, "mpm-musl N=200 C=0.5 ppc=1", is one of `labels` or fits one that is a
+/// pattern, and only cases that have some. Throws InputError where one fits no run, with the nearest that there are.
+void keep_runs(std::vector<Case>&, const std::vector<std::string>& labels);
+
+/// The content of cases/gates.lock: "[case]" and below it the keys of its scene, "[case/gate]" and below it the gate's,
+/// a line each, sorted. A gate is loosened by a wider tolerance, and as well by fewer meshes or methods.
 std::string declarations(const std::vector<Case>&);
-/// How these cases and their gates differ from cases/gates.lock, one line each; empty where they agree. Cases that do
+/// How these cases and their gates differ from cases/gates.lock, one line a key; empty where they agree. Cases that do
 /// not come with the program are not in the lock. With `whole`, gates in the lock that no case declares are named too.
+/// Throws InputError where the lock cannot be read as such.
 std::vector<std::string> differences_from_lock(const std::vector<Case>&, bool whole);
 
 }  // namespace diptych::runner

@@ -92,6 +92,7 @@ std::vector<reports::Case> measure(const std::vector<Case>& cases, const Options
   }
   auto results = run_cases(cases, running);
   for (std::size_t i = 0; i < cases.size(); ++i) {
+    if (!options.only.empty()) continue;  // gates and figures speak of all runs
     for (std::size_t g = 0; g < cases[i].gates.size(); ++g) {
       const GateSpec& gate = cases[i].gates[g];
       if (const auto& known = failed.gate(i, g))
@@ -165,7 +166,7 @@ void write_ledgers(const reports::Case& result, const std::filesystem::path& dir
   fmt::print("{}\n", directory.string());
 }
 
-/// One collection for each run and kind of points: mesh or particles, and cells.
+/// Of a plate's run one collection for each kind of points (mesh or particles, and cells), of a bar's one table.
 void write_fields(const reports::Case& result, const std::filesystem::path& directory) {
   for (const auto& run : result.runs) {
     std::string name = run.label();
@@ -181,6 +182,12 @@ void write_fields(const reports::Case& result, const std::filesystem::path& dire
     for (const auto& [kind, steps] : collections) {
       const auto path = directory / fmt::format("{}.{}.pvd", name, kind);
       reports::write_pvd(path, steps);
+      fmt::print("{}\n", path.string());
+    }
+    if (run.samples.empty()) continue;
+    for (const auto& points : run.samples.front().bar_points) {
+      const auto path = directory / fmt::format("{}.{}.csv", name, points.kind);
+      reports::write_file(path, reports::bar_fields_csv(result, run, points.kind));
       fmt::print("{}\n", path.string());
     }
   }
@@ -269,7 +276,8 @@ bool names_figure(const std::string& wanted, const std::string& id) {
 }  // namespace
 
 int run_command(const Options& options, const std::atomic<bool>& cancelled) {
-  const auto cases = select_cases(options.selectors);
+  auto cases = select_cases(options.selectors);
+  if (!options.only.empty()) keep_runs(cases, options.only);
   prepare(options.out);
   auto results = measure(cases, options, Purpose::show, cancelled);
   for (auto& result : results) name_after_case(result);  // two cases may call their figures the same
@@ -378,8 +386,9 @@ int paper_command(const Options& options, const std::atomic<bool>& cancelled) {
 }
 
 int test_command(const Options& options) {
-  const std::vector<std::string> parts{"unit", "gates", "teeth", "cli"};
-  std::vector<std::string> chosen = options.selectors.empty() ? parts : options.selectors;
+  const std::vector<std::string> parts{"unit", "gates", "teeth", "cli", "lint"};
+  std::vector<std::string> chosen = options.selectors;
+  if (chosen.empty()) chosen.assign(parts.begin(), parts.end() - 1);  // lint judges the text, not the program
   for (const std::string& part : chosen) {
     if (contains(parts, part)) continue;
     const std::string hint = suggestion(part, parts);

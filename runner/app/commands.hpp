@@ -18,10 +18,11 @@ struct Options {
   bool quick = false;
   bool fail_fast = false;  ///< gate: no further runs for a gate that has failed
   bool declarations = false;
-  bool fields = false;       ///< run: also write the fields of plates at the sample times
-  Books books = Books::off;  ///< kept of every run, beside what gates ask for
-  std::string pattern;       ///< test: only the tests whose names it fits
-  bool targets = false;      ///< test: only name what must be built for them
+  std::vector<std::string> only;  ///< run: the labels of the runs to make; empty: all of them
+  bool fields = false;            ///< run: also write all fields at the sample times
+  Books books = Books::off;       ///< kept of every run, beside what gates ask for
+  std::string pattern;            ///< test: only the tests whose names it fits
+  bool targets = false;           ///< test: only name what must be built for them
 };
 
 int run_command(const Options&, const std::atomic<bool>& cancelled);

@@ -55,8 +55,9 @@ int main(int argc, char** argv) {
   add_threads(paper);
   paper->callback([&] { status = paper_command(options, cancelled); });
 
-  auto* test = app.add_subcommand("test", "unit tests, gates and planted defects: all that CI runs");
-  test->add_option("PART", options.selectors, "unit, gates, teeth (the planted defects), cli; all without one");
+  auto* test = app.add_subcommand("test", "unit tests, gates and planted defects");
+  test->add_option("PART", options.selectors,
+                   "unit, gates, teeth (the planted defects), cli; all of these without one; lint");
   test->add_option("-R", options.pattern, "only the tests whose names this regular expression fits");
   test->add_flag("--quick", options.quick, "leave out planted defects and slow gates");
   test->add_flag("--targets", options.targets)->group("");  // for the launcher
@@ -68,8 +69,12 @@ int main(int argc, char** argv) {
   add_out(run);
   bool ledger = false;
   run->add_flag("--ledger", ledger, "also write every step's energies, work, loss and momentum (CSV)");
+  run->add_option("--only", options.only,
+                  "only runs with this label, 'fem N=100 C=0.5', or pattern over labels, without figures; may be given "
+                  "again")
+      ->allow_extra_args(false);
   run->add_flag("--fields", options.fields,
-                "also write plates' fields at the sample times (VTU and PVD, for ParaView)");
+                "also write all fields at the sample times: of plates VTU and PVD, for ParaView, of bars CSV");
   add_threads(run);
   run->callback([&] {
     options.books = ledger ? diptych::Books::lines : diptych::Books::sums;  // its tables show them
@@ -92,7 +97,7 @@ int main(int argc, char** argv) {
 
   auto* list = app.add_subcommand("list", "cases and their gates");
   add_cases(list, false);
-  list->add_flag("--declarations", options.declarations, "every gate with its tolerance, as in cases/gates.lock");
+  list->add_flag("--declarations", options.declarations, "every key of scenes and gates, as in cases/gates.lock");
   list->callback([&] { status = list_command(options); });
 
   auto* show = app.add_subcommand("show", "a case's scene, runs and gates");

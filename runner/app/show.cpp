@@ -101,7 +101,8 @@ int show_command(const Options& options) {
       show_plate(c);
     else
       show_bars(c);
-    for (const GateSpec& gate : c.gates) fmt::print("  gate       {:24} {}\n", gate.id, gate.declaration);
+    for (const GateSpec& gate : c.gates)
+      fmt::print("  gate       {:24} {}\n{:38}{}\n", gate.id, words(gate.declaration), "", gate.reason);
     for (const FigureSpec& figure : c.figures) fmt::print("  figure     {}\n", figure.id);
   }
   return all_passed;

@@ -14,6 +14,7 @@
 
 #include "analytic/solution_parameter.hpp"
 #include "hinge/scene/scene.hpp"
+#include "runner/input/declaration.hpp"
 #include "runner/input/plate_spec.hpp"
 
 namespace diptych::runner {
@@ -100,7 +101,7 @@ struct GateSpec {
   long steps = 2000;              ///< of each trial in the search for the critical Courant number
   bool slow = false;              ///< left out by --quick, and then reported as left out
   int line = 0;                   ///< of its declaration
-  std::string declaration;        ///< its own keys and values in one canonical line, for gates.lock
+  Declaration declaration;        ///< all its keys but its id and prose, for gates.lock
 };
 
 /// What runs must keep for a figure, beside their samples.
@@ -167,7 +168,7 @@ struct Case {
   bool from_contact = false;  ///< times count from when the first two bars would meet in free flight
   std::vector<double> times;  ///< ascending, > 0
   std::vector<Probe> probes;
-  std::string scene;  ///< all keys but those of gates, figures and prose in one canonical line, for gates.lock
+  Declaration scene;  ///< all keys but id, gates, figures and prose, for gates.lock
   std::vector<GateSpec> gates;
   std::vector<FigureSpec> figures;
   bool allow_unstable = false;

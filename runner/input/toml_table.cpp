@@ -30,22 +30,59 @@ Node copied(const toml::node& node) {
   return copy;
 }
 
-std::string declared(const Node::Entries& entries);
+/// Keys whose texts are only for reading. (A parameter of that name is a number.)
+bool is_prose(const Node::Entry& entry) {
+  static const Names prose{"title", "why", "reason", "says"};
+  return entry.value.as<std::string>() && contains(prose, entry.key);
+}
 
-std::string declared(const Node& node) {
-  if (const auto* entries = node.as<Node::Entries>()) return '{' + declared(*entries) + '}';
+/// The id of an entry of a list of tables, "" without one.
+std::string id_of(const Node& node) {
+  const auto* entries = node.as<Node::Entries>();
+  for (std::size_t i = 0; entries && i < entries->size(); ++i)
+    if (const auto* id = (*entries)[i].value.as<std::string>(); id && (*entries)[i].key == "id") return *id;
+  return "";
+}
+
+/// A value that has no tables in it.
+std::string declared_value(const Node& node) {
   if (const auto number = node.number()) return words(*number);
   const auto* list = node.as<Node::List>();
   if (!list) return words(node);
   Names values;
-  for (const Node& one : *list) values.push_back(declared(one));
+  for (const Node& one : *list) values.push_back(declared_value(one));
   return '[' + listed(values, " ") + ']';
 }
 
-std::string declared(const Node::Entries& entries) {
-  Names values;
-  for (const Node::Entry& one : entries) values.push_back(one.key + '=' + declared(one.value));
-  return listed(values, " ");
+void declare(const std::string& path, const Node& node, Declaration& into);
+
+/// All entries but prose and those that `path` speaks of already.
+void declare(const std::string& path, const Node::Entries& entries, const Names& without, Declaration& into) {
+  bool any = false;
+  for (const Node::Entry& one : entries) {
+    if (is_prose(one) || contains(without, one.key)) continue;
+    declare(path.empty() ? one.key : path + '.' + one.key, one.value, into);
+    any = true;
+  }
+  if (!any && !path.empty()) into[path] = "{}";
+}
+
+void declare(const std::string& path, const Node& node, Declaration& into) {
+  if (const auto* entries = node.as<Node::Entries>()) return declare(path, *entries, {}, into);
+  const auto is_table = [](const Node& one) { return one.as<Node::Entries>() != nullptr; };
+  const auto* list = node.as<Node::List>();
+  if (!list || std::none_of(list->begin(), list->end(), is_table)) {
+    into[path] = declared_value(node);
+    return;
+  }
+  for (std::size_t i = 0; i < list->size(); ++i) {
+    const Node& one = (*list)[i];
+    const std::string id = id_of(one);
+    if (id.empty())
+      declare(fmt::format("{}[{}]", path, i), one, into);
+    else
+      declare(fmt::format("{}[{}]", path, id), *one.as<Node::Entries>(), {"id"}, into);
+  }
 }
 
 Rule<double> finite(const std::string& range, bool (*within)(double), const std::string& hint = "") {
@@ -180,10 +217,12 @@ Place Table::place(const std::string& key) {
   return {place_.mistakes, node, node && node->at.line > 0 ? node->at : place_.at, prefix_ + key};
 }
 
-std::string Table::declaration(const Names& without) const {
-  auto kept = entries();
-  std::erase_if(kept, [&](const Node::Entry& entry) { return contains(without, entry.key); });
-  return declared(kept);
+Declaration Table::declaration(const Names& without) const {
+  Names not_locked = without;
+  not_locked.push_back("id");  // which names the whole
+  Declaration all;
+  declare("", entries(), not_locked, all);
+  return all;
 }
 
 bool Table::applies(const std::string& key, const std::string& choice, const std::string& chosen, const Names& owners) {

@@ -14,6 +14,7 @@
 #include <variant>
 #include <vector>
 
+#include "runner/input/declaration.hpp"
 #include "runner/input/messages.hpp"
 
 namespace diptych::runner {
@@ -141,8 +142,8 @@ class Table {
   void say(const std::string& message) const { place_.say(message); }
   unsigned line() const { return place_.at.line; }
   std::size_t mistakes() const { return place_.mistakes->size(); }  ///< so far, in the whole file
-  /// Its keys and values in one canonical line: "key=value key=value", nested ones in brackets.
-  std::string declaration(const Names& without = {}) const;
+  /// Its keys and values for gates.lock, less its own id and some more of its own keys.
+  Declaration declaration(const Names& without = {}) const;
 
   template <class Value>
   std::optional<Value> maybe(const std::string& key, const Rule<Value>& rule) {

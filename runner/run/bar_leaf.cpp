@@ -7,6 +7,7 @@
 #include "analytic/discrete.hpp"
 #include "analytic/viscous_front.hpp"
 #include "runner/compare/norms.hpp"
+#include "runner/run/bar_points.hpp"
 #include "runner/run/curves.hpp"
 #include "runner/run/doubt.hpp"
 #include "runner/run/measures.hpp"
@@ -83,7 +84,7 @@ void BarLeaf::trace(const Record& record, const std::vector<long>& more, const S
   if (!more.empty()) trace_paths(taken_after(more, record.snapshots), scene, exact_.get(), run);
 }
 
-reports::Sample BarLeaf::sample(const Snapshot& own, const Snapshot& at, double asked, bool,
+reports::Sample BarLeaf::sample(const Snapshot& own, const Snapshot& at, double asked, bool keep_fields,
                                 const reports::Run& run) const {
   const double unit = time_unit(c, c.time_unit), origin = instant(c, leaf, 0);
   const double time = static_cast<double>(own.step) * run.time_step;
@@ -123,6 +124,7 @@ reports::Sample BarLeaf::sample(const Snapshot& own, const Snapshot& at, double 
     sample.errors.push_back(error);
   }
   for (const Probe& probe : c.probes) sample.probes.push_back(read_probe(c, leaf, probe, at));
+  if (keep_fields) sample.bar_points = bar_points(at, row.elements, exact, bars);
   return sample;
 }
 

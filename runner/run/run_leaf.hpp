@@ -17,7 +17,7 @@ struct Running {
   int threads = 1;
   const std::atomic<bool>* cancelled = nullptr;  ///< turns true where runs should stop soon
   Books books = Books::off;                      ///< kept at least; their sums also where a gate asks for them
-  bool keep_fields = false;                      ///< keep all fields of plates at the sample times in the results
+  bool keep_fields = false;                      ///< keep all fields at the sample times in the results
   bool judged_only = false;                      ///< leave out runs that no gate of their case speaks of
   bool cheapest_first = false;                   ///< instead of the longest, with which the threads end together
   /// Asked before each run of the which-th case: one that is no longer wanted is left out with status "left out".

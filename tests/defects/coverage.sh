@@ -2,7 +2,7 @@
 # coverage.sh PROGRAM FILE: every gate of every case must be named in FILE, the list of gates that some planted defect fails.
 set -euo pipefail
 program=$1 killed=$2
-declared=$("$program" list --declarations | cut -d' ' -f1 | grep /)
+declared=$("$program" list --declarations | sed -n 's|^\[\(.*/.*\)\]$|\1|p')
 [ -n "$declared" ] || { echo "no gates at all"; exit 1; }
 missing=$(comm -23 <(sort -u <<<"$declared") <(sort -u "$killed"))
 unknown=$(comm -13 <(sort -u <<<"$declared") <(sort -u "$killed"))

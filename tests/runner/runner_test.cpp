@@ -1,5 +1,6 @@
 #include "runner/run/runner.hpp"
 
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <fstream>
@@ -161,13 +162,48 @@ BOOST_AUTO_TEST_CASE(every_case_that_comes_with_the_program_is_locked) {
   BOOST_TEST(differences.empty());
 }
 
-BOOST_AUTO_TEST_CASE(a_loosened_tolerance_and_a_lost_gate_are_seen) {
+// What a list of tables with ids declares goes by the ids: one more of them moves no line of the others.
+BOOST_AUTO_TEST_CASE(a_declaration_names_variants_and_probes) {
+  Case c = by_id("plate.choices");
+  BOOST_TEST(c.scene["variant[heals].set.damage.heals"] == "true");
+  BOOST_TEST(c.scene["variant[step-load].set.load[0].traction"] == "7e+08");
+  BOOST_TEST(!c.scene.contains("variant[heals].says"));
+  BOOST_TEST(!c.scene.contains("variant[heals].id"));
+}
+
+BOOST_AUTO_TEST_CASE(what_differs_from_the_lock_is_named) {
+  const auto only_difference = [](const std::vector<Case>& cases) {
+    const auto differences = differences_from_lock(cases, true);
+    BOOST_TEST(differences.size() == 1U);
+    return differences.empty() ? "" : differences.front();
+  };
   auto cases = all_cases();
-  BOOST_REQUIRE(!cases.empty());
-  cases[0].gates[0].declaration += " max=1";
-  BOOST_TEST(differences_from_lock(cases, true).size() == 1U);
+  BOOST_REQUIRE(cases.at(0).id == "bar.body-force");
+  BOOST_REQUIRE(cases[0].gates.at(0).id == "displacement-order");
+  Declaration& scene = cases[0].scene;
+  Declaration& gate = cases[0].gates[0].declaration;
+  const Declaration scene_was = scene, gate_was = gate;
+  gate["band"] = "[1.9 2.2]";
+  BOOST_TEST(only_difference(cases) == "bar.body-force/displacement-order: band = [1.9 2.2] is locked as [1.9 2.1]");
+  gate = gate_was;
+  gate["slow"] = "true";
+  BOOST_TEST(only_difference(cases) == "bar.body-force/displacement-order: slow = true is not in cases/gates.lock");
+  gate = gate_was;
+  gate.erase("expect");
+  BOOST_TEST(only_difference(cases) ==
+             "bar.body-force/displacement-order: expect = 2 is in cases/gates.lock but the case does not declare it");
+  gate = gate_was;
+  scene["axes[0].cells"] = "[20 40 80]";
+  BOOST_TEST(only_difference(cases) == "bar.body-force: axes[0].cells = [20 40 80] is locked as [20 40 80 160]");
+  scene = scene_was;
+  cases[0].gates[0].reason = "A reason is not locked.";
+  BOOST_TEST(differences_from_lock(cases, true).empty());
+
+  cases[0].gates[0].id = "renamed";
+  BOOST_TEST(differences_from_lock(cases, true).size() == 2U);
   cases[0].gates.erase(cases[0].gates.begin());
-  BOOST_TEST(differences_from_lock(cases, true).size() == 1U);
+  BOOST_TEST(only_difference(cases) ==
+             "bar.body-force/displacement-order is in cases/gates.lock but no case declares it");
   BOOST_TEST(differences_from_lock(cases, false).empty());  // part of the catalogue may be asked for
 }
 
@@ -179,6 +215,39 @@ BOOST_AUTO_TEST_CASE(selectors_find_ids_patterns_and_single_gates) {
   BOOST_CHECK_EXCEPTION(select_cases({"bar.step.fixed-fre"}), InputError, says({"bar.step.fixed-free"}));
   BOOST_CHECK_THROW(select_cases({"bar.step.fixed-free/enrgy"}), InputError);
   BOOST_CHECK_THROW(select_cases({"nowhere.toml"}), InputError);
+}
+
+BOOST_AUTO_TEST_CASE(runs_are_kept_by_their_labels) {
+  const Case whole = by_id("impact.sweep");  // which sweeps a parameter
+  const auto all = leaves(whole);
+  const auto label_of = [](const Case& c, const Leaf& leaf) { return describe(c, leaf).label(); };
+  for (const Leaf& leaf : {all.front(), all.back()}) {
+    std::vector<Case> cases{whole, by_id("bar.energy")};
+    keep_runs(cases, {label_of(whole, leaf)});
+    BOOST_REQUIRE(cases.size() == 1U);  // of the other case no run has this label
+    BOOST_TEST((leaves(cases[0]) == std::vector<Leaf>{leaf}));
+  }
+  std::vector<Case> cases{by_id("bar.step.free-free")};
+  const auto before = leaves(cases[0]);
+  const std::string least = "mpm-musl N=*", most = label_of(cases[0], before.front());
+  keep_runs(cases, {least, most});
+  const auto kept = leaves(cases[0]);
+  BOOST_TEST(!kept.empty());
+  BOOST_TEST(kept.size() < before.size());
+  for (const Leaf& leaf : before) {
+    const bool wanted = leaf.method == "mpm-musl" || leaf == before.front();
+    BOOST_TEST((std::find(kept.begin(), kept.end(), leaf) != kept.end()) == wanted, label_of(cases[0], leaf));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_label_of_no_run_is_answered_with_those_there_are) {
+  std::vector<Case> cases{by_id("bar.energy")};
+  const std::string said = message_of<InputError>([&] { keep_runs(cases, {"fem N=100 C=0.9", "fem N=100 C=0.8"}); });
+  BOOST_TEST(holds(said, "no run 'fem N=100 C=0.8' (did you mean 'fem N=100 C=0.9'?); there are\n  fem N=100 C=0.9"));
+  BOOST_TEST(!holds(said, "mpm"));
+  cases = {by_id("bar.energy")};
+  const std::string unlike = message_of<InputError>([&] { keep_runs(cases, {"x"}); });
+  BOOST_TEST(holds(unlike, "  mpm-musl N=100 C=0.9 ppc=1"));
 }
 
 BOOST_AUTO_TEST_CASE(a_solution_is_trusted_by_its_own_test_alone) {
