@@ -54,7 +54,7 @@ class Bars {
   double energy() const { return books_.energy(); }
   double momentum() const { return books_.momentum(); }
   double free_mass() const { return books_.free_mass(); }
-  void hand_over(Record& record) const { record.touches = touches_.all(); }
+  void complete(Record& record) const { record.touches = touches_.all(); }
   /// Those that this run has built up, whatever the scene asks for.
   std::vector<std::string> features() const {
     std::vector<std::string> active{Law::feature};

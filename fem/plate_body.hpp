@@ -99,7 +99,7 @@ class PlateBody {
                 material_.bytes() + books_.bytes() + gauges_.bytes() + (viscosity_ ? viscosity_->bytes() : 0);
     return sum;
   }
-  void hand_over(PlateRecord& record) {
+  void complete(PlateRecord& record) {
     record.platen = std::move(platen_);
     record.gauges = gauges_.records();
     record.fed = material_.model().fed();

@@ -107,7 +107,7 @@ class Bars {
   double free_mass() const {
     return scene_.left == Support::free && scene_.right == Support::free ? particles_.total_mass() : 0;
   }
-  void hand_over(Record& record) const { record.touches = touches_.all(); }
+  void complete(Record& record) const { record.touches = touches_.all(); }
   /// Those that this run has built up, whatever the scene asks for.
   std::vector<std::string> features() const {
     std::vector<std::string> active{Law::feature};

@@ -159,7 +159,7 @@ class PlateBody {
             particles_.bytes() + model_.bytes() + grid_.bytes() + bands_.bytes() + supports_.bytes() + loads_.bytes() +
                 driver_.capacity() * sizeof(double) + (damping_ ? damping_->bytes() : 0)};
   }
-  void hand_over(PlateRecord& record) {
+  void complete(PlateRecord& record) {
     record.platen = std::move(platen_);
     record.platen_ahead = scheme_ == Scheme::usf ? dt_ / 2 : 0;
     record.gauges = gauges_.records();

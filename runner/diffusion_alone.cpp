@@ -60,7 +60,7 @@ class Concentrating : public NoMechanics {
   }
   PlateSnapshot sample(long step) const { return of_nodes(field_.values(), step, dt_); }
   Work work(long) const { return work_of(field_); }
-  void hand_over(PlateRecord& record) const { record.fed = fed_ + start_; }
+  void complete(PlateRecord& record) const { record.fed = fed_ + start_; }
 
  private:
   double x(int i) const { return scene_.width * i / grid_.nx; }
@@ -91,7 +91,7 @@ class Spreading : public NoMechanics {
   void step(long, Ledger&) { field_.advance(ceiling_, dt_); }
   PlateSnapshot sample(long step) const { return of_nodes(field_.of_nodes(), step, dt_); }
   Work work(long) const { return work_of(field_); }
-  void hand_over(PlateRecord& record) const { record.fed = field_.fed(); }
+  void complete(PlateRecord& record) const { record.fed = field_.fed(); }
 
  private:
   double dt_;

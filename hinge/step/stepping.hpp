@@ -83,7 +83,7 @@ Result take_steps(Body& body, const Stepping& stepping) {
   record.ledger = ledger.take_lines();
   record.features = body.features();
   record.work = body.work(record.steps);
-  body.hand_over(record);
+  body.complete(record);
   if (record.outcome == Outcome::completed && next != stepping.sample_after.end()) {
     Ledger none(Books::off, stepping.time_step, 0, 0, 0, 0);
     none.begin_step(1);

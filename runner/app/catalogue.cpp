@@ -36,14 +36,14 @@ Declarations declared_in(const std::vector<Case>& cases) {
   return all;
 }
 
-/// Throws InputError where the file is not as declarations() writes it: a line that is passed over would lock nothing.
-Declarations read_lock() {
+/// Notes what is not as declarations() writes it: a line that is passed over would lock nothing.
+Declarations read_lock(std::vector<std::string>& mistakes) {
   Declarations lock;
   Declaration* section = nullptr;
   std::ifstream in(own_cases() / "gates.lock");
   int number = 0;
   const auto refuse = [&](const std::string& found, const std::string& allowed) {
-    throw InputError(fmt::format("cases/gates.lock:{}: found {}; allowed: {}", number, found, allowed));
+    mistakes.push_back(fmt::format("cases/gates.lock:{}: found {}; allowed: {}", number, found, allowed));
   };
   for (std::string line; std::getline(in, line);) {
     ++number;
@@ -58,7 +58,10 @@ Declarations read_lock() {
       continue;
     }
     const auto equals = line.find(" = ");
-    if (!section || equals == line.npos) refuse(words(line), "[case], [case/gate] and below it a key = value a line");
+    if (!section || equals == line.npos) {
+      refuse(words(line), "[case], [case/gate] and below it a key = value a line");
+      continue;
+    }
     const std::string key = line.substr(0, equals);
     if (!section->emplace(key, line.substr(equals + 3)).second) refuse(words(key) + " twice", "each key once");
   }
@@ -202,8 +205,8 @@ std::vector<std::string> differences_from_lock(const std::vector<Case>& cases, b
   std::vector<Case> own = cases;
   std::erase_if(own, [](const Case& c) { return !comes_with_program(c); });
   if (own.empty() && !whole) return {};
-  const Declarations all = declared_in(own), lock = read_lock();
   std::vector<std::string> differences;
+  const Declarations all = declared_in(own), lock = read_lock(differences);
   for (const auto& [id, declared] : all) {
     const std::string name = name_of(id);
     const auto place = lock.find(id);

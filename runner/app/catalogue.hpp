@@ -22,9 +22,9 @@ void keep_runs(std::vector<Case>&, const std::vector<std::string>& labels);
 /// The content of cases/gates.lock: "[case]" and below it the keys of its scene, "[case/gate]" and below it the gate's,
 /// a line each, sorted. A gate is loosened by a wider tolerance, and as well by fewer meshes or methods.
 std::string declarations(const std::vector<Case>&);
-/// How these cases and their gates differ from cases/gates.lock, one line a key; empty where they agree. Cases that do
-/// not come with the program are not in the lock. With `whole`, gates in the lock that no case declares are named too.
-/// Throws InputError where the lock cannot be read as such.
+/// How these cases and their gates differ from cases/gates.lock, one line a key, and what of it cannot be read; empty
+/// where they agree. Cases that do not come with the program are not in the lock. With `whole`, gates in the lock that
+/// no case declares are named too.
 std::vector<std::string> differences_from_lock(const std::vector<Case>&, bool whole);
 
 }  // namespace diptych::runner

@@ -44,21 +44,21 @@ bool symmetric(const std::vector<double>& places) {
 }
 
 /// What one history says; stresses compression positive.
-struct Told {
+struct StressReading {
   double arrival, rise, overshoot, plateau, release;
 };
-Told tell(const History& longitudinal, const ImpactTheory& theory, double end) {
+StressReading read_stress(const History& longitudinal, const ImpactTheory& theory, double end) {
   const double until = std::min(theory.release, end), quarter = (until - theory.arrival) / 4;
-  Told told{};
-  told.arrival = first_passage(longitudinal, theory.plateau / 2);
-  told.rise = first_passage(longitudinal, 0.9 * theory.plateau) - first_passage(longitudinal, 0.1 * theory.plateau);
+  StressReading reading{};
+  reading.arrival = first_passage(longitudinal, theory.plateau / 2);
+  reading.rise = first_passage(longitudinal, 0.9 * theory.plateau) - first_passage(longitudinal, 0.1 * theory.plateau);
   double largest = -std::numeric_limits<double>::infinity();
   for (std::size_t n = 0; n < longitudinal.time.size() && longitudinal.time[n] <= until; ++n)
     raise(largest, longitudinal.value[n]);
-  told.overshoot = largest / theory.plateau - 1;
-  told.plateau = mean_over(longitudinal, theory.arrival + quarter, until - quarter);
-  told.release = first_fall(longitudinal, theory.plateau / 2, told.arrival);
-  return told;
+  reading.overshoot = largest / theory.plateau - 1;
+  reading.plateau = mean_over(longitudinal, theory.arrival + quarter, until - quarter);
+  reading.release = first_fall(longitudinal, theory.plateau / 2, reading.arrival);
+  return reading;
 }
 
 History negative(const std::vector<double>& time, std::vector<double> stress) {
@@ -179,15 +179,16 @@ void measure_gauges(const Case& c, const Leaf& leaf, const diffusion::Grid& grid
       run.measures[name] = value;
       if (std::isfinite(exact)) run.measures[name + ".exact"] = exact;
     };
-    const Told told = tell(longitudinal, theory, end);
+    const StressReading reading = read_stress(longitudinal, theory, end);
     const double until = std::min(theory.release, end), span = until - theory.arrival;
     const double elastic = theory.lateral_ratio * theory.plateau;
-    put("arrival", told.arrival, theory.arrival);
-    put("rise", told.rise, viscous_rise(plate, run.cell_size, theory.arrival));
-    put("overshoot", told.overshoot, nothing);
-    put("plateau", told.plateau, theory.plateau);
-    put("release", told.release, theory.release);
-    put("ratio", mean_over(lateral, theory.arrival + span / 4, until - span / 4) / told.plateau, theory.lateral_ratio);
+    put("arrival", reading.arrival, theory.arrival);
+    put("rise", reading.rise, viscous_rise(plate, run.cell_size, theory.arrival));
+    put("overshoot", reading.overshoot, nothing);
+    put("plateau", reading.plateau, theory.plateau);
+    put("release", reading.release, theory.release);
+    put("ratio", mean_over(lateral, theory.arrival + span / 4, until - span / 4) / reading.plateau,
+        theory.lateral_ratio);
     put("longitudinal", mean_over(longitudinal, until - 0.3 * span, until - 0.2 * span) / theory.plateau, nothing);
     put("lateral", mean_over(lateral, until - 0.3 * span, until - 0.2 * span) / elastic, nothing);
     put("failure",
@@ -201,7 +202,7 @@ void measure_gauges(const Case& c, const Leaf& leaf, const diffusion::Grid& grid
       raise(apart, std::abs(expected.value[n] - seen.xx[n]) / theory.plateau);
     }
     run.measures["gauge." + gauge.id + ".prediction"] = apart;
-    const Told predicted = tell(negative(expected.time, expected.value), theory, end);
+    const StressReading predicted = read_stress(negative(expected.time, expected.value), theory, end);
     const auto predict = [&](const char* what, double value) {
       run.measures["gauge." + gauge.id + "." + what + ".predicted"] = value;
     };

@@ -68,8 +68,6 @@ Names variants_of(const Case& c) {
   return names;
 }
 
-}
-
 Axes all_axes(const Case& c) {
   Axes all;
   all.particles.clear();

@@ -28,7 +28,7 @@ double mean_at_points(const Field& field, const Span& bar) {
 void measure_outcomes(const Scene& scene, const std::vector<Span>& bars, const Record& record, double time_step,
                       const analytic::ExactSolution* exact, reports::Run& run) {
   const auto contacts = exact ? exact->contact_times() : std::nullopt;
-  const auto tell = [&](const std::string& name, double value, std::optional<double> predicted, double scale) {
+  const auto note_outcome = [&](const std::string& name, double value, std::optional<double> predicted, double scale) {
     if (!std::isfinite(value)) return;
     run.measures[name] = value;
     if (!predicted || !std::isfinite(*predicted)) return;
@@ -51,9 +51,9 @@ void measure_outcomes(const Scene& scene, const std::vector<Span>& bars, const R
     std::optional<double> exact_duration;
     if (exact_begin) exact_duration = *exact_end - *exact_begin;
     const double scale = exact_duration ? *exact_duration : 1;
-    tell("contact.begin", begin, exact_begin, scale);
-    tell("contact.end", end, exact_end, scale);
-    tell("contact.duration", end - begin, exact_duration, scale);
+    note_outcome("contact.begin", begin, exact_begin, scale);
+    note_outcome("contact.end", end, exact_end, scale);
+    note_outcome("contact.duration", end - begin, exact_duration, scale);
   }
   if (scene.bars.size() == 2 && !record.snapshots.empty()) {
     const Field& v = record.snapshots.back().velocity;
@@ -69,14 +69,14 @@ void measure_outcomes(const Scene& scene, const std::vector<Span>& bars, const R
     if (closing > 0) {
       std::optional<double> predicted;
       if (contacts) predicted = (exact_now[1] - exact_now[0]) / closing;
-      tell("contact.restitution", (now[1] - now[0]) / closing, predicted, 1);
+      note_outcome("contact.restitution", (now[1] - now[0]) / closing, predicted, 1);
     }
   }
   if (record.sums.lines > 0 && record.sums.last.dissipated > 0) {
     // The ledger's last line holds what was dissipated before the last step.
     const double time = record.time - time_step, last = std::max(time, 0.0);
     const auto predicted = exact ? exact->work_of_flow(last) : std::nullopt;
-    tell("plastic.work", record.sums.last.dissipated, predicted, predicted && *predicted > 0 ? *predicted : 1);
+    note_outcome("plastic.work", record.sums.last.dissipated, predicted, predicted && *predicted > 0 ? *predicted : 1);
   }
 }
 
