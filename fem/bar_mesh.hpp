@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fem/contact.hpp"
+#include "hinge/material/bar_update.hpp"
 #include "hinge/step/record.hpp"
 
 namespace diptych::fem {

@@ -16,7 +16,7 @@
 #include "fem/plate_sweep.hpp"
 #include "fem/plate_viscosity.hpp"
 #include "hinge/scene/gauges.hpp"
-#include "hinge/solid/plate_solid.hpp"
+#include "hinge/solid/cone.hpp"
 #include "hinge/step/stepping.hpp"
 
 namespace diptych::fem {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "hinge/material/bar_update.hpp"
 #include "hinge/step/stepping.hpp"
 #include "hinge/step/touches.hpp"
 #include "mpm/bar_books.hpp"

@@ -11,7 +11,7 @@
 
 #include "hinge/scene/gauges.hpp"
 #include "hinge/scene/plate_check.hpp"
-#include "hinge/solid/plate_solid.hpp"
+#include "hinge/solid/cone.hpp"
 #include "hinge/step/stepping.hpp"
 #include "mpm/plate.hpp"
 #include "mpm/plate_books.hpp"

@@ -1,5 +1,6 @@
 #include <stdexcept>
 
+#include "hinge/solid/plate_models.hpp"
 #include "mpm/plate_body.hpp"
 
 namespace diptych::mpm {

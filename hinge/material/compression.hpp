@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
+#include <stdexcept>
 
 #include "hinge/material/plane.hpp"
 
@@ -50,5 +52,11 @@ struct Compression {
     return bulk * volume * volume / 2 + whole.shear * (deviator.contract(deviator) + zz * zz);
   }
 };
+
+/// Throws std::invalid_argument where the plastic flow across the plane is not known.
+inline void check_cone(const PlaneElastic& elastic, const std::optional<Compression>& compression) {
+  if (compression && elastic.plane == Plane::stress)
+    throw std::invalid_argument("plasticity in compression is for plane strain only");
+}
 
 }  // namespace diptych::material

@@ -7,8 +7,6 @@
 // stress then does not change to first order in f while the lateral one rises, which is what gauges in glass show.
 #pragma once
 
-#include <cmath>
-
 #include "hinge/material/plane.hpp"
 
 namespace diptych::material {
@@ -26,58 +24,28 @@ struct FailureWave {
   /// part of the energy put in that a run may see given; the most that was seen is stated with the gates on it.
   static constexpr double gives_back = 0.25;
 
-  double pressure(const Tensor& strain) const { return -elastic.bulk_modulus() * (strain.xx + strain.yy); }  ///< p_e
+  inline double pressure(const Tensor& strain) const;  ///< p_e
   /// W, the shear energy of the whole solid [J/m³]; dev ε has a zz component.
-  double shear_energy(const Tensor& strain) const {
-    const double third = (strain.xx + strain.yy) / 3, x = strain.xx - third, y = strain.yy - third;
-    return elastic.stiffness().shear * (x * x + y * y + third * third + 2 * (strain.xy * strain.xy));
-  }
+  inline double shear_energy(const Tensor& strain) const;
   /// √(3/2 s_e:s_e) of the whole solid [Pa]: a measure of the strain, so that what has failed does not stop itself.
-  double equivalent_stress(const Tensor& strain) const {
-    return std::sqrt(6 * elastic.stiffness().shear * shear_energy(strain));
-  }
+  inline double equivalent_stress(const Tensor& strain) const;
   /// V_d at which f = f_max; 0 where nothing is compressed. The root would be beyond −2 p_e/K there: what has swelled
   /// freely, V_d = −p_e/K, would be let swell to twice as much, and so on without end.
-  double ceiling(const Tensor& strain) const {
-    const double K = elastic.bulk_modulus(), p = pressure(strain), W = shear_energy(strain);
-    if (p <= 0) return 0 * W;  // NaN stays it
-    return (std::sqrt(p * p + 2 * K * most_converted * W) - p) / K;
-  }
+  inline double ceiling(const Tensor& strain) const;
   /// The ceiling where damage may spread, and 0 where the shear is below the threshold, ahead of the shock; NaN of NaN.
-  double open_ceiling(const Tensor& strain) const {
-    return equivalent_stress(strain) <= threshold ? 0 : ceiling(strain);
-  }
+  inline double open_ceiling(const Tensor& strain) const;
   /// f, the part of the shear energy that has been converted.
-  double converted(const Tensor& strain, double dilatancy) const {
-    if (dilatancy == 0) return 0;
-    const double raised = dilatancy * (2 * pressure(strain) + elastic.bulk_modulus() * dilatancy);
-    const double f = raised / (2 * shear_energy(strain));
-    return f > most_converted ? most_converted : f < 0 ? 0 : f;  // this order keeps NaN
-  }
+  inline double converted(const Tensor& strain, double dilatancy) const;
   /// Tension positive; with no dilatancy to the bit the whole solid's.
-  Tensor stress(const Tensor& strain, double dilatancy) const {
-    if (dilatancy == 0) return elastic.stiffness().stress(strain);
-    const double kept = 2 * elastic.stiffness().shear * std::sqrt(1 - converted(strain, dilatancy));
-    const double third = (strain.xx + strain.yy) / 3;
-    const double mean = elastic.bulk_modulus() * (3 * third - dilatancy);
-    return {mean + kept * (strain.xx - third), mean + kept * (strain.yy - third), kept * strain.xy};
-  }
+  inline Tensor stress(const Tensor& strain, double dilatancy) const;
   /// Largest dσ_xx/dε_xx at fixed V_d in uniaxial strain, over the whole solid's: the limit of the time step falls by
   /// its square root. With r = V_d/ε and a = 3K/(4G), f = a (2r + r²) and
   ///   dσ_xx/dε_xx = K + (4/3) G [√(1 − f) + a (r + r²)/√(1 − f)],
   /// which rises with f. f is taken no further than 0.9: the tangent is infinite at f = 1, which only a layer that
   /// vanishes comes near.
-  double stiffening() const {
-    const double a = 0.75 * elastic.bulk_modulus() / elastic.stiffness().shear;
-    const double f = most_converted > 0.9 ? 0.9 : most_converted;  // this order keeps NaN
-    const double r = std::sqrt(1 + f / a) - 1, kept = std::sqrt(1 - f);
-    return (a + (kept + a * (r + r * r) / kept)) / (a + 1);
-  }
+  double stiffening() const;
   /// p²/(2K) + (1 − f) W [J/m³].
-  double stored(const Tensor& strain, double dilatancy) const {
-    const double K = elastic.bulk_modulus(), p = pressure(strain) + K * dilatancy;
-    return p * p / (2 * K) + (1 - converted(strain, dilatancy)) * shear_energy(strain);
-  }
+  inline double stored(const Tensor& strain, double dilatancy) const;
 };
 
 }  // namespace diptych::material

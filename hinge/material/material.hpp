@@ -4,8 +4,9 @@
 // array of State in cell order, so a point's history is read and written in one stream. The law is
 // chosen once, outside every loop, with std::visit.
 //
-// A new law is a struct that is a BarLaw and its name in Material, both here, and its row in
-// runner/input/bar_file.cpp, which reads it.
+// How they answer, their `update`, stands in bar_update.hpp, which only loops include: it can be changed without all
+// that names a law being built again. A new law is a struct that is a BarLaw and its name in Material, both here, and
+// its row in runner/input/bar_file.cpp, which reads it.
 #pragma once
 
 #include <cmath>
@@ -85,10 +86,7 @@ struct Elastic {
   double elastic_wave_speed() const { return std::sqrt(youngs_modulus / density); }
   double stored(const State& state) const { return state.stress * state.stress / (2 * youngs_modulus); }
 
-  Response update(State& state, double strain_increment) const {
-    state.stress += youngs_modulus * strain_increment;
-    return {state.stress, stored(state), 0, elastic_wave_speed()};
-  }
+  inline Response update(State&, double strain_increment) const;
 };
 
 /// Bilinear plasticity with isotropic hardening in uniaxial stress (paper, Figs. 8–11): the stress rises with E up to
@@ -120,22 +118,7 @@ struct Hardening {
   double plastic_modulus() const { return youngs_modulus * tangent_modulus / (youngs_modulus - tangent_modulus); }
   double stored(const State& state) const { return state.stress * state.stress / (2 * youngs_modulus); }
 
-  Response update(State& state, double strain_increment) const {
-    const double trial = state.stress + youngs_modulus * strain_increment;
-    const double yield = yield_stress + state.hardened;
-    const double excess = std::abs(trial) - yield;
-    if (excess <= 0) {
-      state.stress = trial;
-      return {trial, stored(state), 0, elastic_wave_speed()};
-    }
-    const double plastic = excess / (youngs_modulus + plastic_modulus());  // |Δε_p|
-    const double rise = plastic_modulus() * plastic;
-    state.hardened += rise;
-    state.stress = std::copysign(yield + rise, trial);
-    // The flow stress rises linearly over the increment, so its mean times |Δε_p| is the exact plastic work.
-    const double work = (yield + rise / 2) * plastic;
-    return {state.stress, stored(state), work, std::sqrt(tangent_modulus / density)};
-  }
+  inline Response update(State&, double strain_increment) const;
 };
 
 using Material = std::variant<Elastic, Hardening>;

@@ -12,6 +12,7 @@
 
 #include "hinge/material/plane.hpp"
 #include "hinge/material/viscosity.hpp"
+#include "hinge/solid/plane_model.hpp"
 #include "hinge/solid/plate_solid.hpp"
 #include "hinge/step/record.hpp"
 

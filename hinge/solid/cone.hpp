@@ -2,23 +2,17 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
-#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hinge/diffusion/concentration.hpp"
 #include "hinge/material/compression.hpp"
 #include "hinge/material/plane.hpp"
 #include "hinge/solid/arrays.hpp"
+#include "hinge/solid/plane_model.hpp"
 
 namespace diptych::solid {
-
-/// Throws std::invalid_argument where the plastic flow across the plane is not known.
-inline void check_cone(const material::PlaneElastic& elastic, const std::optional<material::Compression>& compression) {
-  if (compression && elastic.plane == material::Plane::stress)
-    throw std::invalid_argument("plasticity in compression is for plane strain only");
-}
 
 /// The model Base with the cone: the stiffness is Base's, and points have plastic strains.
 template <class Base>
@@ -91,5 +85,16 @@ class WithCone : public Base {
   material::Compression compression_;
   TensorField plastic_strain_, plastic_before_;  // the latter with books alone
 };
+
+/// Calls f<Model>() with the model of a solid: its own, or that with the cone.
+template <class Solid, class F>
+decltype(auto) with_model(const Solid& solid, F&& f) {
+  static_assert(PlaneModel<typename Solid::Model>);
+  if constexpr (requires { solid.compression; }) {
+    static_assert(PlaneModel<WithCone<typename Solid::Model>>);
+    if (solid.compression) return std::forward<F>(f).template operator()<WithCone<typename Solid::Model>>();
+  }
+  return std::forward<F>(f).template operator()<typename Solid::Model>();
+}
 
 }  // namespace diptych::solid

@@ -1,16 +1,10 @@
 // The solid of a plate that does not change.
 #pragma once
 
-#include <cstddef>
 #include <optional>
-#include <string>
-#include <vector>
 
-#include "hinge/diffusion/concentration.hpp"
 #include "hinge/material/compression.hpp"
 #include "hinge/material/plane.hpp"
-#include "hinge/solid/cone.hpp"
-#include "hinge/solid/plane_model.hpp"
 
 namespace diptych::solid {
 
@@ -23,44 +17,9 @@ struct Elastic {
 
   const material::PlaneElastic& elastic() const { return law; }  ///< the whole solid
   double stiffening() const { return 1; }
-  void check() const { check_cone(law, compression); }
+  void check() const { material::check_cone(law, compression); }
 
-  class Model : public Unchanging {
-   public:
-    static constexpr bool linear = true;
-
-    Model(const Elastic& solid, const diffusion::Grid&, std::size_t)
-        : Unchanging(solid.law), stiffness_(solid.law.stiffness()) {}
-
-    struct Row {
-      material::Stiffness all;
-
-      [[gnu::always_inline]] material::Stiffness stiffness(const material::Tensor&, std::size_t) const {
-        return {all.normal, all.cross, all.shear};
-      }
-      [[gnu::always_inline]] material::Tensor stress(const material::Tensor& strain, std::size_t i, std::size_t) const {
-        return stiffness(strain, i).stress(strain);
-      }
-      [[gnu::always_inline]] material::Tensor stress(const material::Tensor& strain, std::size_t i, std::size_t p,
-                                                     double&) const {
-        return stress(strain, i, p);
-      }
-    };
-    Row row(std::size_t, std::size_t) { return {stiffness_}; }
-
-    const material::Stiffness& stiffness(const material::Tensor&, std::size_t) const { return stiffness_; }
-    material::Tensor standing(const material::Tensor& strain, std::size_t, std::size_t) const {
-      return stiffness_.stress(strain);
-    }
-    double stored(const material::Tensor& strain, std::size_t, std::size_t) const {
-      return stiffness_.stress(strain).contract(strain) / 2;
-    }
-    bool whole(std::size_t, std::size_t) const { return true; }
-    void name_features(std::vector<std::string>& active) const { active.emplace_back(feature); }
-
-   private:
-    material::Stiffness stiffness_;
-  };
+  class Model;  ///< hinge/solid/elastic_model.hpp
 };
 
 }  // namespace diptych::solid

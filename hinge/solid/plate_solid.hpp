@@ -20,27 +20,6 @@ inline const material::PlaneElastic& elastic(const PlateSolid& solid) {
   return std::visit([](const auto& s) -> const material::PlaneElastic& { return s.elastic(); }, solid);
 }
 
-namespace solid {
-
-/// Calls f<Model>() with the model of a solid: its own, or that with the cone.
-template <class Solid, class F>
-decltype(auto) with_model(const Solid& solid, F&& f) {
-  static_assert(PlaneModel<typename Solid::Model>);
-  if constexpr (requires { solid.compression; }) {
-    static_assert(PlaneModel<WithCone<typename Solid::Model>>);
-    if (solid.compression) return std::forward<F>(f).template operator()<WithCone<typename Solid::Model>>();
-  }
-  return std::forward<F>(f).template operator()<typename Solid::Model>();
-}
-
-/// Calls f<Model>() with the model of whatever the solid is.
-template <class F>
-decltype(auto) with_model(const PlateSolid& solid, F&& f) {
-  return std::visit([&](const auto& one) -> decltype(auto) { return with_model(one, f); }, solid);
-}
-
-}  // namespace solid
-
 inline const char* feature_of(const PlateSolid& solid) {
   return std::visit([](const auto& s) { return s.feature; }, solid);
 }
@@ -64,12 +43,8 @@ inline bool diffuses(const PlateSolid& solid) {
       solid);
 }
 /// Whether artificial viscosity may stand beside it.
-inline bool takes_viscosity(const PlateSolid& solid) {
-  return solid::with_model(solid, []<class Model>() { return Model::takes_viscosity; });
-}
+bool takes_viscosity(const PlateSolid&);
 /// Whether something changes in its cells, which particles that cross cells would leave behind.
-inline bool changes_in_cells(const PlateSolid& solid) {
-  return solid::with_model(solid, []<class Model>() { return Model::staggered; });
-}
+bool changes_in_cells(const PlateSolid&);
 
 }  // namespace diptych

@@ -9,6 +9,7 @@
 
 #include "fem/cell.hpp"
 #include "fem/plate.hpp"
+#include "hinge/material/failure_wave_law.hpp"
 #include "hinge/step/viscous_step.hpp"
 #include "tests/plate_records.hpp"
 

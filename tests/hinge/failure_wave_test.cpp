@@ -7,6 +7,7 @@
 #include <random>
 
 #include "analytic/failure_point.hpp"
+#include "hinge/material/failure_wave_law.hpp"
 
 namespace {
 

@@ -1,4 +1,5 @@
 #include "hinge/material/material.hpp"
+#include "hinge/material/bar_update.hpp"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>

@@ -9,6 +9,7 @@
 
 #include "fem/plate.hpp"
 #include "fem/plate_body.hpp"
+#include "hinge/solid/plate_models.hpp"
 #include "hinge/solid/plate_solid.hpp"
 #include "mpm/plate.hpp"
 #include "mpm/plate_body.hpp"

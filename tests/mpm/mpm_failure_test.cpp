@@ -10,6 +10,7 @@
 #include <string>
 
 #include "hinge/diffusion/dilatancy.hpp"
+#include "hinge/material/failure_wave_law.hpp"
 #include "mpm/bar.hpp"
 #include "mpm/plate.hpp"
 #include "tests/plate_records.hpp"
