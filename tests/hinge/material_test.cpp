@@ -1,5 +1,4 @@
 #include "hinge/material/material.hpp"
-#include "hinge/material/bar_update.hpp"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -7,6 +6,8 @@
 #include <string>
 #include <variant>
 #include <vector>
+
+#include "hinge/material/bar_update.hpp"
 
 using namespace diptych::material;
 using namespace std::string_literals;
