@@ -47,21 +47,21 @@ expect 14 'main.cpp is newer than the program' as_another env PATH="$work/bin:$P
 expect 0 '^unit_tests planted$' "$program" test --targets
 expect 0 '^planted$' "$program" test teeth --targets
 expect 0 '^unit_tests$' "$program" test unit cli --quick --targets
-expect 0 '^$' "$program" test lint --targets
+expect 0 '^$' "$program" test lint recipes --targets
 expect 14 "no part of the tests is called 'gate'; .*did you mean \"gates\"" "$program" test gate
 expect 14 'planted defects are what --quick leaves out' "$program" test teeth --quick
 
 # Lint goes on without tools that are not to be had, and says so; what it does not need is not asked for.
 chmod -R u+w "$work/clone/build"
-cat >"$work/bin/cmake" <<'SH'
-#!/bin/sh
-true
-SH
+printf '#!/bin/sh\necho "$*" >>%s/configured\n' "$work" >"$work/bin/cmake"
 printf '#!/bin/sh\nexit 1\n' >"$work/bin/sudo"
+printf '#!/bin/sh\ncase "$*" in *clang*) exit 1 ;; *) printf installed ;; esac\n' >"$work/bin/dpkg-query"
 touch "$work/clone/build/release/build.ninja"
 printf '#!/bin/sh\n[ "$2" = --targets ] || [ "$3" = --targets ] || echo "ran $*"\n' >"$work/clone/build/release/diptych"
 rm -f "$work/called"
+# Whatever the part, ctest finds its tests only in a build that was configured with them.
 expect 0 '^ran test cli$' "${fresh[@]}" test cli
+expect 0 'BUILD_TESTING=ON' cat "$work/configured"
 [ ! -e "$work/called" ] || { echo "test cli asked for packages"; failures=$((failures + 1)); }
 expect 0 'install.* clang-format-14 clang-tidy-19$' "${fresh[@]}" test cli lint
 expect 0 'going on without' "${fresh[@]}" test lint

@@ -57,7 +57,7 @@ int main(int argc, char** argv) {
 
   auto* test = app.add_subcommand("test", "unit tests, gates and planted defects");
   test->add_option("PART", options.selectors,
-                   "unit, gates, teeth (the planted defects), cli; all of these without one; lint");
+                   "unit, gates, teeth (the planted defects), cli; all of these without one; recipes, lint");
   test->add_option("-R", options.pattern, "only the tests whose names this regular expression fits");
   test->add_flag("--quick", options.quick, "leave out planted defects and slow gates");
   test->add_flag("--targets", options.targets)->group("");  // for the launcher
