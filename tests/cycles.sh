@@ -5,13 +5,13 @@ set -euo pipefail
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 # T, D, B, R: defined by this object alone; weak symbols are templates and inline functions, which many objects define.
-while read -r object; do
-  nm --format=posix "$object" | awk -v o="${object##*.dir/}" '$2 ~ /^[TDBR]$/ { print "D", $1, o } $2 == "U" { print "U", $1, o }'
-done < <(grep "[.]o$" "$1") >"$work/symbols"
+mapfile -t files < <(grep "[.]o$" "$1")
+nm -A --format=posix "${files[@]}" | awk '{ sub(/^.*[.]dir\//, "", $1); sub(/:$/, "", $1) }
+  $3 ~ /^[TDBR]$/ { print "D", $2, $1 } $3 == "U" { print "U", $2, $1 }' >"$work/symbols"
 awk '$1 == "D" { where[$2] = $3; next } { used[$0] = 1 }
      END { for (line in used) { split(line, f, " "); if (where[f[2]] && where[f[2]] != f[3]) print f[3], where[f[2]], f[2] } }' \
   "$work/symbols" | sort >"$work/ties"
-objects=$(grep -c "[.]o$" "$1") ties=$(cut -d' ' -f1,2 "$work/ties" | sort -u | wc -l)
+objects=${#files[@]} ties=$(cut -d' ' -f1,2 "$work/ties" | sort -u | wc -l)
 echo "$objects objects, $ties ties"
 [ "$objects" -gt 50 ] && [ "$ties" -gt "$objects" ] || { echo "too few: these are not the product's"; exit 1; }
 # tsort names every object of a cycle on its error output.
