@@ -66,7 +66,7 @@ class PlateBooks {
   void measure_energies(Ledger& ledger) {
     rows_.for_each([&](Index j) {
       RowSums row{mesh_.motion(j)};
-      for (Index cell = j * mesh_.nx; cell < (j + 1) * mesh_.nx; ++cell) row.strain += recoverable(cell);
+      for (Index cell = j * mesh_.nx; cell < (j + 1) * mesh_.nx; ++cell) row.strain += recoverable(cell, j);
       sums_[j] = row;
     });
     sums_[mesh_.ny] = {mesh_.motion(mesh_.ny)};
@@ -109,8 +109,8 @@ class PlateBooks {
   };
 
   /// Sⁿ⁺½ of a cell [J/m].
-  double recoverable(Index cell) {
-    const Triangles now = mesh_.strain(cell), rate = mesh_.strain_rate(cell);
+  double recoverable(Index cell, Index row) {
+    const Triangles now = mesh_.strain(cell, row), rate = mesh_.strain_rate(cell, row);
     double sum = 0;
     for (Index t = 0; t < 4; ++t) sum += energy_between(cell, t, now[t] - rate[t] * dt_, now[t]);
     if (!recoverable_.empty()) recoverable_[cell] = sum;
@@ -126,7 +126,7 @@ class PlateBooks {
       sums_[j].dissipated = 0;
       for (Index cell = j * mesh_.nx; cell < (j + 1) * mesh_.nx; ++cell) {
         if (!stress_.is_own(cell) && !own_before_[cell]) continue;
-        const Triangles now = mesh_.strain(cell), rate = mesh_.strain_rate(cell);
+        const Triangles now = mesh_.strain(cell, j), rate = mesh_.strain_rate(cell, j);
         double left = 0;
         for (Index t = 0; t < 4; ++t) left += energy_between(cell, t, now[t], now[t] - rate[t] * dt_);
         sums_[j].dissipated += recoverable_[cell] - left;
