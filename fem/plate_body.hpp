@@ -65,11 +65,11 @@ class PlateBody {
   PlateSnapshot sample(long n) const {
     PlateSnapshot s = sample_mesh(mesh_, stress_, n, dt_);
     const solid::Fields fields = material_.model().fields();
-    for (Index cell = 0; cell < mesh_.cells(); ++cell) {
-      const material::Tensor mean = mesh_.mean_strain(cell);
+    mesh_.for_cells([&](CellAt at) {
+      const material::Tensor mean = mesh_.mean_strain(at);
       s.volumetric_strain.push_back(material_.model().volumetric(mean));
       if (!fields.crack_density.empty()) s.strain.push_back(mean);
-    }
+    });
     s.take(fields);
     return s;
   }
@@ -108,7 +108,7 @@ class PlateBody {
 
  private:
   void read_gauges(long n) {
-    const auto of_cell = [&](Index i, Index j) { return mean_stress(mesh_, stress_, j * mesh_.nx + i); };
+    const auto of_cell = [&](Index i, Index j) { return mean_stress(mesh_, stress_, {j * mesh_.nx + i, j}); };
     gauges_.read(static_cast<double>(n) * dt_, of_cell, material_.model().fields().dilatancy);
   }
 

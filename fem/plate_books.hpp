@@ -48,10 +48,10 @@ class PlateBooks {
 
   double energy() const {
     double sum = 0;
-    for (Index cell = 0; cell < mesh_.cells(); ++cell) {
-      const Triangles strain = mesh_.strain(cell);
-      for (Index t = 0; t < 4; ++t) sum += mesh_.h.triangle_area() * material_.stored(cell, t, strain[t]);
-    }
+    mesh_.for_cells([&](CellAt at) {
+      const Triangles strain = mesh_.strain(at);
+      for (Index t = 0; t < 4; ++t) sum += mesh_.h.triangle_area() * material_.stored(at.cell, t, strain[t]);
+    });
     return sum + mesh_.motion().kinetic;
   }
 
@@ -64,11 +64,7 @@ class PlateBooks {
 
   /// At σⁿ, εⁿ⁺¹ and vⁿ⁺½.
   void measure_energies(Ledger& ledger) {
-    rows_.for_each([&](Index j) {
-      RowSums row{mesh_.motion(j)};
-      for (Index cell = j * mesh_.nx; cell < (j + 1) * mesh_.nx; ++cell) row.strain += recoverable(cell, j);
-      sums_[j] = row;
-    });
+    rows_.for_each([&](Index j) { sums_[j] = {mesh_.motion(j), recoverable(j)}; });
     sums_[mesh_.ny] = {mesh_.motion(mesh_.ny)};
     if (!Model::linear && ledger.keeps()) own_before_ = stress_.own;
     if (viscosity_) ledger.take_by_viscosity(viscosity_->work(dt_));
@@ -108,29 +104,52 @@ class PlateBooks {
     double strain = 0, dissipated = 0;
   };
 
-  /// Sⁿ⁺½ of a cell [J/m].
-  double recoverable(Index cell, Index row) {
-    const Triangles now = mesh_.strain(cell, row), rate = mesh_.strain_rate(cell, row);
+  /// Sⁿ⁺½ of a row of cells [J/m].
+  double recoverable(Index row) {
     double sum = 0;
-    for (Index t = 0; t < 4; ++t) sum += energy_between(cell, t, now[t] - rate[t] * dt_, now[t]);
-    if (!recoverable_.empty()) recoverable_[cell] = sum;
+    if (stress_.own.empty()) {  // for ever: a loop without a question, which the compiler takes two cells at a time
+      mesh_.for_row(row, [&](CellAt at) {
+        const Triangles now = mesh_.strain(at), here = before(at, now);
+        sum += energy_between(at.cell, here, now, [&](Index t) { return stress_.solid.stress(here[t]); });
+      });
+      return sum;
+    }
+    mesh_.for_row(row, [&](CellAt at) {
+      const Triangles now = mesh_.strain(at);
+      const double energy = energy_between(at.cell, before(at, now), now);
+      if (!recoverable_.empty()) recoverable_[at.cell] = energy;
+      sum += energy;
+    });
     return sum;
   }
-  /// A [ψ + ½ σ:(ε − ε here)] of a triangle, ψ and σ where it stands, at the strain `here` [J/m].
-  double energy_between(Index cell, Index t, const material::Tensor& here, const material::Tensor& strain) const {
-    const material::Tensor stress = material_.stress(cell, t, here);
-    return mesh_.h.triangle_area() * (material_.stored(cell, t, here) + stress.contract(strain - here) / 2);
+  /// Strains of a cell where the step began that ended with these.
+  Triangles before(CellAt at, const Triangles& now) const {
+    Triangles strain = mesh_.strain_rate(at);
+    for (Index t = 0; t < 4; ++t) strain[t] = now[t] - strain[t] * dt_;
+    return strain;
+  }
+  /// Σ A [ψ + ½ σ:(ε − ε here)] of the triangles of a cell, ψ and σ where it stands, at the strains `here` [J/m].
+  double energy_between(Index cell, const Triangles& here, const Triangles& strain) const {
+    if (stress_.is_own(cell))
+      return energy_between(cell, here, strain, [&](Index t) { return stress_.stress[cell][t]; });
+    return energy_between(cell, here, strain, [&](Index t) { return stress_.solid.stress(here[t]); });
+  }
+  template <class Stress>
+  double energy_between(Index cell, const Triangles& here, const Triangles& strain, const Stress& stress) const {
+    double sum = 0;
+    for (Index t = 0; t < 4; ++t)
+      sum +=
+          mesh_.h.triangle_area() * (material_.stored(cell, t, here[t]) + stress(t).contract(strain[t] - here[t]) / 2);
+    return sum;
   }
   double dissipation() {
     rows_.for_each([&](Index j) {
       sums_[j].dissipated = 0;
-      for (Index cell = j * mesh_.nx; cell < (j + 1) * mesh_.nx; ++cell) {
-        if (!stress_.is_own(cell) && !own_before_[cell]) continue;
-        const Triangles now = mesh_.strain(cell, j), rate = mesh_.strain_rate(cell, j);
-        double left = 0;
-        for (Index t = 0; t < 4; ++t) left += energy_between(cell, t, now[t], now[t] - rate[t] * dt_);
-        sums_[j].dissipated += recoverable_[cell] - left;
-      }
+      mesh_.for_row(j, [&](CellAt at) {
+        if (!stress_.is_own(at.cell) && !own_before_[at.cell]) return;
+        const Triangles now = mesh_.strain(at);
+        sums_[j].dissipated += recoverable_[at.cell] - energy_between(at.cell, now, before(at, now));
+      });
     });
     double sum = 0;
     for (const RowSums& row : sums_) sum += row.dissipated;

@@ -38,8 +38,7 @@ class PlateMaterial {
   /// Eqs. 23 to 28, staggered: the cells' mean strains at the end of the step give what changes in cells.
   void advance(double dt) {
     rows_.for_each([&](Index j) {
-      for (Index cell = j * mesh_.nx; cell < (j + 1) * mesh_.nx; ++cell)
-        driver_[cell] = model_.driver(mesh_.mean_strain(cell));
+      mesh_.for_row(j, [&](CellAt at) { driver_[at.cell] = model_.driver(mesh_.mean_strain(at)); });
     });
     model_.advance(driver_, dt);
   }
@@ -49,10 +48,10 @@ class PlateMaterial {
     rows_.for_each([&](Index j) {
       Taken taken;
       const bool counts = !Model::linear && keeps_books;
-      for (Index cell = j * mesh_.nx; cell < (j + 1) * mesh_.nx; ++cell) {
-        renew(cell, dt, counts && model_.has_potential(), taken);
-        stress_.own[cell] = update_cell(cell, taken);
-      }
+      mesh_.for_row(j, [&](CellAt at) {
+        renew(at, dt, counts && model_.has_potential(), taken);
+        stress_.own[at.cell] = update_cell(at, taken);
+      });
       if (counts) taken_[j] = taken;
     });
   }
@@ -62,10 +61,6 @@ class PlateMaterial {
     if (!Model::yields && model_.whole(cell, 0)) return stress_.solid.stress(strain).contract(strain) / 2;
     return model_.stored(strain, cell, 4 * cell + t);
   }
-  /// Stress that stands, in a cell of its own, or else of the whole solid at the strain `here` [Pa].
-  material::Tensor stress(Index cell, Index t, const material::Tensor& here) const {
-    return stress_.is_own(cell) ? stress_.stress[cell][t] : stress_.solid.stress(here);
-  }
   const std::vector<Taken>& taken() const { return taken_; }  ///< of rows, in the last update with books
   const Model& model() const { return model_; }
   Index bytes() const {
@@ -74,28 +69,29 @@ class PlateMaterial {
 
  private:
   /// ψ of each triangle where the last step began and where it ended [J/m³].
-  std::array<std::array<double, 2>, 4> stored_along(Index cell, double dt) const {
-    const Triangles now = mesh_.strain(cell), rate = mesh_.strain_rate(cell);
+  std::array<std::array<double, 2>, 4> stored_along(CellAt at, double dt) const {
+    const Triangles now = mesh_.strain(at), rate = mesh_.strain_rate(at);
     std::array<std::array<double, 2>, 4> energy{};
-    for (Index t = 0; t < 4; ++t) energy[t] = {stored(cell, t, now[t] - rate[t] * dt), stored(cell, t, now[t])};
+    for (Index t = 0; t < 4; ++t) energy[t] = {stored(at.cell, t, now[t] - rate[t] * dt), stored(at.cell, t, now[t])};
     return energy;
   }
 
   /// What has changed in a cell takes effect: the least that it can have taken is the smaller of the two falls of ψ.
-  void renew(Index cell, double dt, bool counts, Taken& taken) {
-    if (!model_.outdated(cell)) return;
-    if (!counts) return model_.renew(cell);
-    const auto before = stored_along(cell, dt);
-    model_.renew(cell);
-    const auto after = stored_along(cell, dt);
+  void renew(CellAt at, double dt, bool counts, Taken& taken) {
+    if (!model_.outdated(at.cell)) return;
+    if (!counts) return model_.renew(at.cell);
+    const auto before = stored_along(at, dt);
+    model_.renew(at.cell);
+    const auto after = stored_along(at, dt);
     for (Index t = 0; t < 4; ++t) taken.by_damage += std::min(before[t][0] - after[t][0], before[t][1] - after[t][1]);
   }
 
   /// 0 where the stresses are those of the whole solid, which are not kept.
-  unsigned char update_cell(Index cell, Taken& taken) {
+  unsigned char update_cell(CellAt at, Taken& taken) {
+    const Index cell = at.cell;
     if (!Model::yields && model_.whole(cell, 0)) return 0;
     const auto law = model_.row(cell, 4 * cell);
-    Triangles stress = mesh_.strain(cell);
+    Triangles stress = mesh_.strain(at);
     bool whole = true;
     for (Index t = 0; t < 4; ++t) {
       double dissipated = 0;

@@ -58,6 +58,12 @@ struct Motion {
   }
 };
 
+/// A cell by its number and the row that it stands in: loops know both, and the division that finds the one in the
+/// other costs as much as a cell's strains.
+struct CellAt {
+  Index cell, row;
+};
+
 /// Cells are numbered row by row from the bottom, each row from the left.
 struct Mesh {
   double width, height;  ///< of the plate [m]
@@ -86,25 +92,29 @@ struct Mesh {
   }
 
   Index cells() const { return nx * ny; }
-  CellValues displacement(Index cell) const { return of_cell(corners.u, middles.u, cell); }
-  CellValues velocity(Index cell) const { return of_cell(corners.v, middles.v, cell); }
-  Triangles strain(Index cell) const { return strains(displacement(cell), h); }
-  Triangles strain_rate(Index cell) const { return strains(velocity(cell), h); }
-  /// The same in a loop that knows the cell's row: the division that finds it costs more than the strains.
-  Triangles strain(Index cell, Index row) const { return strains(of_cell(corners.u, middles.u, cell, row), h); }
-  Triangles strain_rate(Index cell, Index row) const { return strains(of_cell(corners.v, middles.v, cell, row), h); }
-  material::Tensor mean_strain(Index cell) const { return fem::mean_strain(displacement(cell), h); }
+  /// Calls act(CellAt) for all cells of a row, and of the mesh.
+  template <class Act>
+  void for_row(Index row, Act&& act) const {
+    const Index first = row * nx, count = nx;
+    for (Index i = 0; i < count; ++i) act(CellAt{first + i, row});
+  }
+  template <class Act>
+  void for_cells(Act&& act) const {
+    for (Index row = 0; row < ny; ++row) for_row(row, act);
+  }
+  CellValues displacement(CellAt at) const { return of_cell(corners.u, middles.u, at); }
+  CellValues velocity(CellAt at) const { return of_cell(corners.v, middles.v, at); }
+  Triangles strain(CellAt at) const { return strains(displacement(at), h); }
+  Triangles strain_rate(CellAt at) const { return strains(velocity(at), h); }
+  material::Tensor mean_strain(CellAt at) const { return fem::mean_strain(displacement(at), h); }
 
   Motion motion() const;         ///< of all nodes
   Motion motion(Index j) const;  ///< of a row of corners and of the middles above it
 
  private:
-  CellValues of_cell(const Components& of_corners, const Components& of_middles, Index cell) const {
-    return of_cell(of_corners, of_middles, cell, cell / nx);
-  }
-  CellValues of_cell(const Components& of_corners, const Components& of_middles, Index cell, Index row) const {
-    const Index k = cell + row, l = k + nx + 1;  // a row has one corner more than it has cells
-    return {of_corners[k], of_corners[k + 1], of_corners[l + 1], of_corners[l], of_middles[cell]};
+  CellValues of_cell(const Components& of_corners, const Components& of_middles, CellAt at) const {
+    const Index k = at.cell + at.row, l = k + nx + 1;  // a row has one corner more than it has cells
+    return {of_corners[k], of_corners[k + 1], of_corners[l + 1], of_corners[l], of_middles[at.cell]};
   }
 };
 

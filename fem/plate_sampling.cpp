@@ -35,22 +35,23 @@ PlateSnapshot sample_mesh(const Mesh& mesh, const CellStress& cell_stress, long 
   nodes_of(
       mesh.middles, [&](Index i) { return mesh.middle_x(i); }, [&](Index j) { return mesh.middle_y(j); }, true);
   const std::array<Vector, 4> towards{{{0, -1}, {1, 0}, {0, 1}, {-1, 0}}};  // where a triangle lies in its cell
-  for (Index cell = 0; cell < mesh.cells(); ++cell) {
-    const Triangles stress = cell_stress.of(mesh, cell);
+  mesh.for_cells([&](CellAt at) {
+    const Triangles stress = cell_stress.of(mesh, at);
+    const double x = mesh.middle_x(at.cell - at.row * nx), y = mesh.middle_y(at.row);
     for (Index t = 0; t < 4; ++t) {
-      s.stress.x.push_back(mesh.middle_x(cell % nx) + towards[t][0] * h.x / 3);
-      s.stress.y.push_back(mesh.middle_y(cell / nx) + towards[t][1] * h.y / 3);
+      s.stress.x.push_back(x + towards[t][0] * h.x / 3);
+      s.stress.y.push_back(y + towards[t][1] * h.y / 3);
       s.stress.weight.push_back(h.triangle_area());
       s.stress.component[0].push_back(stress[t].xx);
       s.stress.component[1].push_back(stress[t].yy);
       s.stress.component[2].push_back(stress[t].xy);
     }
-  }
+  });
   return s;
 }
 
-material::Tensor mean_stress(const Mesh& mesh, const CellStress& cell_stress, Index cell) {
-  const auto [bottom, right, top, left] = cell_stress.of(mesh, cell);
+material::Tensor mean_stress(const Mesh& mesh, const CellStress& cell_stress, CellAt at) {
+  const auto [bottom, right, top, left] = cell_stress.of(mesh, at);
   return ((right + left) + (bottom + top)) * 0.25;
 }
 

@@ -11,6 +11,6 @@ namespace diptych::fem {
 PlateSnapshot sample_mesh(const Mesh&, const CellStress&, long n, double dt);
 
 /// Mean stress of a cell, of pairs of triangles that change places in a mirror [Pa].
-material::Tensor mean_stress(const Mesh&, const CellStress&, Index cell);
+material::Tensor mean_stress(const Mesh&, const CellStress&, CellAt);
 
 }  // namespace diptych::fem

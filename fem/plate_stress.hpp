@@ -23,9 +23,9 @@ struct CellStress {
 
   bool is_own(Index cell) const { return !own.empty() && own[cell]; }
   /// The material's, without q.
-  Triangles of(const Mesh& mesh, Index cell) const {
-    if (is_own(cell)) return stress[cell];
-    Triangles t = mesh.strain(cell);
+  Triangles of(const Mesh& mesh, CellAt at) const {
+    if (is_own(at.cell)) return stress[at.cell];
+    Triangles t = mesh.strain(at);
     for (material::Tensor& one : t) one = solid.stress(one);
     return t;
   }

@@ -18,19 +18,19 @@ ArtificialViscosity::ArtificialViscosity(const Plate& plate, const Mesh& mesh, C
 }
 
 /// tr D of each triangle [1/s].
-std::array<double, 4> ArtificialViscosity::dilation(Index cell) const {
-  const Triangles rate = mesh_.strain_rate(cell);
+std::array<double, 4> ArtificialViscosity::dilation(CellAt at) const {
+  const Triangles rate = mesh_.strain_rate(at);
   return {rate[0].xx + rate[0].yy, rate[1].xx + rate[1].yy, rate[2].xx + rate[2].yy, rate[3].xx + rate[3].yy};
 }
 
 double ArtificialViscosity::largest_rate() {
   rows_.for_each([&](Index j) {
     rows_of_[j].largest = 0;
-    for (Index cell = j * mesh_.nx; cell < (j + 1) * mesh_.nx; ++cell) {
-      for (const double D : dilation(cell)) {
+    mesh_.for_row(j, [&](CellAt at) {
+      for (const double D : dilation(at)) {
         if (viscosity_.acts(D)) rows_of_[j].largest = std::max(rows_of_[j].largest, std::abs(D));
       }
-    }
+    });
   });
   double largest = 0;
   for (const Row& row : rows_of_) largest = std::max(largest, row.largest);
@@ -40,28 +40,29 @@ double ArtificialViscosity::largest_rate() {
 void ArtificialViscosity::update() {
   const double largest = viscosity_.needs_largest() ? largest_rate() : 0;
   rows_.for_each([&](Index j) {
-    for (Index cell = j * mesh_.nx; cell < (j + 1) * mesh_.nx; ++cell) {
-      const std::array<double, 4> D = dilation(cell);
+    mesh_.for_row(j, [&](CellAt at) {
+      const std::array<double, 4> D = dilation(at);
+      std::array<double, 4>& q = stress_.viscous[at.cell];
       bool acts = false;
       for (Index t = 0; t < 4; ++t) {
-        stress_.viscous[cell][t] = viscosity_.stress(D[t], largest, density_, speed_, length_);
-        acts = acts || stress_.viscous[cell][t] != 0;
+        q[t] = viscosity_.stress(D[t], largest, density_, speed_, length_);
+        acts = acts || q[t] != 0;
       }
-      if (!acts) continue;
+      if (!acts) return;
       rows_of_[j].acted = true;
-      stress_.stress[cell] = stress_.of(mesh_, cell);
-      stress_.own[cell] = 1;
-    }
+      stress_.stress[at.cell] = stress_.of(mesh_, at);
+      stress_.own[at.cell] = 1;
+    });
   });
 }
 
 double ArtificialViscosity::work(double dt) {
   rows_.for_each([&](Index j) {
     double sum = 0;
-    for (Index cell = j * mesh_.nx; cell < (j + 1) * mesh_.nx; ++cell) {
-      const std::array<double, 4> D = dilation(cell);
-      for (Index t = 0; t < 4; ++t) sum += stress_.viscous[cell][t] * (D[t] * dt);
-    }
+    mesh_.for_row(j, [&](CellAt at) {
+      const std::array<double, 4> D = dilation(at);
+      for (Index t = 0; t < 4; ++t) sum += stress_.viscous[at.cell][t] * (D[t] * dt);
+    });
     rows_of_[j].work = mesh_.h.triangle_area() * sum / 2;
   });
   double sum = 0;

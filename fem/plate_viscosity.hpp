@@ -29,7 +29,7 @@ class ArtificialViscosity {
     bool acted = false;
     double work = 0;  ///< [J/m]
   };
-  std::array<double, 4> dilation(Index cell) const;
+  std::array<double, 4> dilation(CellAt) const;
   double largest_rate();
 
   material::Viscosity viscosity_;
