@@ -24,6 +24,16 @@ rho = 1.0
 left = "fixed"
 right = "free"
 )toml";
+/// The same, pulled at its right end: its load, its features and what is exactly known of it.
+inline const std::string pulled_bar = paper_bar + R"toml([[load]]
+at = "right"
+history = "step"
+traction = 1.0
+[model]
+features = ["elastic"]
+[exact]
+solution = "bar-wave"
+)toml";
 
 inline std::string plate(const std::string& width, const std::string& height) {
   return "[plate]\nwidth = " + width + "\nheight = " + height + '\n';

@@ -110,8 +110,9 @@ Needed no_face(const std::string&, const Case& c) {
 }
 
 Needed free_of_units(const std::string&, const Case& c) {
-  if (!c.plate || !changes(c)) return {};
-  return Lack{" of a plate with damage", "of elastic plates: eq. 23a is not free of units"};
+  if (!c.plate || !c.plate->solid || std::holds_alternative<solid::Elastic>(*c.plate->solid)) return {};
+  if (changes(c)) return Lack{" of a plate with damage", "of elastic plates: eq. 23a is not free of units"};
+  return Lack{" of a plate that is not elastic", "of elastic plates: no other law says how it scales"};
 }
 
 // ---- what the books make --------------------------------------------------------------------------------------------

@@ -46,6 +46,13 @@ void widen(reports::Figure& figure, const reports::Curve& curve) {
   }
 }
 
+void take_range(const FigureSpec& spec, reports::Figure& figure) {
+  if (spec.range) {
+    figure.y_min = (*spec.range)[0];
+    figure.y_max = (*spec.range)[1];
+  }
+}
+
 std::vector<std::string> plate_notes(const Case& c, const FigureSpec& spec) {
   std::vector<std::string> notes{words_of(*c.plate)};
   if (const auto* cracking = c.plate->cracking(); cracking && cracking->evolution.diffusion) {

@@ -18,6 +18,7 @@ std::string family_of_method(const std::string& method);  ///< "FEM" or "MPM"
 std::string title_of(const Case&, const FigureSpec&);     ///< "Fig. 4. ..." for "fig4"
 std::string table_cell(double value, int digits = 3);     ///< a dash for what is no finite number
 void widen(reports::Figure&, const reports::Curve&);      ///< the range of y, to hold what is finite of the curve
+void take_range(const FigureSpec&, reports::Figure&);     ///< of y, where the case file gives it
 /// Lines under a plate figure's title: the scene, what the diffusion is read as, and what the paper leaves open.
 std::vector<std::string> plate_notes(const Case&, const FigureSpec&);
 

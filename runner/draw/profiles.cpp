@@ -70,10 +70,7 @@ void add(const Case& c, const FigureSpec& spec, reports::Case& result) {
   const double height = figure.y_max - figure.y_min, margin = height > 0 ? 0.05 * height : 1;
   figure.y_min -= margin;
   figure.y_max += margin;
-  if (spec.range) {
-    figure.y_min = (*spec.range)[0];
-    figure.y_max = (*spec.range)[1];
-  }
+  take_range(spec, figure);
   result.figures.push_back(std::move(figure));
 }
 

@@ -85,9 +85,10 @@ void PlateLeaf::measure(const PlateRecord& record, const Stepping& stepping, rep
 void PlateLeaf::measure_against_forward_euler(const PlateRecord& record, const Stepping& stepping,
                                               reports::Run& run) const {
   const char* quantity = "cross.forward-euler";
+  if (!asks_for(c, leaf, quantity)) return;
   Plate other = scene;
   diffusion::Scheme* scheme = diffusing(other.solid).scheme;
-  if (!scheme || !asks_for(c, leaf, quantity)) return;
+  if (!scheme) return;
   // It would be compared with itself: no measure, and a gate on it is INVALID.
   if (*scheme == diffusion::Scheme::forward_euler) return;
   *scheme = diffusion::Scheme::forward_euler;

@@ -45,15 +45,7 @@ void add(const Case&, const FigureSpec& spec, reports::Case& result) {
 
 FigureKind points_kind() { return {.name = "points", .keys = {"cells", "counted"}, .read = read, .add = add}; }
 
-const std::string bar = head("t", "code-verification", "paper") + paper_bar + R"([[load]]
-at = "right"
-history = "step"
-traction = 1.0
-[model]
-features = ["elastic"]
-[exact]
-solution = "bar-wave"
-)" + axes({"fem", "mpm-musl"}, "10", "0.5") +
+const std::string bar = head("t", "code-verification", "paper") + pulled_bar + axes({"fem", "mpm-musl"}, "10", "0.5") +
                         R"(particles = [[0.25, 0.75]]
 [sample]
 times = { unit = "L/c", at = [0.5] }

@@ -63,15 +63,7 @@ const std::string usual = gate("books", "invariant", "energy.closure", "max = 1e
 const std::string spanning = gate("wide", "span", "energy.drift", "most = 0.25\n");
 
 std::string bar(const std::string& gates) {
-  return head("t", "code-verification") + paper_bar + R"([[load]]
-at = "right"
-history = "step"
-traction = 1.0
-[model]
-features = ["elastic"]
-[exact]
-solution = "bar-wave"
-)" + axes({"fem"}, "10, 20", "0.5") +
+  return head("t", "code-verification") + pulled_bar + axes({"fem"}, "10, 20", "0.5") +
          R"([sample]
 times = { unit = "L/c", at = [0.5] }
 )" + gates;

@@ -20,15 +20,7 @@ using reports::Verdict;
 
 namespace {
 
-const std::string text = head("t", "code-verification", "paper") + paper_bar + R"toml([[load]]
-at = "right"
-history = "step"
-traction = 1.0
-[model]
-features = ["elastic"]
-[exact]
-solution = "bar-wave"
-[[axes]]
+const std::string text = head("t", "code-verification", "paper") + pulled_bar + R"toml([[axes]]
 method = ["fem"]
 cells = [50, 100, 200, 400]
 courant = [0.5]

@@ -87,15 +87,7 @@ Panel foreign() {
   return row;
 }
 
-const std::string bar = tests::head("t", "code-verification", "paper") + tests::paper_bar + R"([[load]]
-at = "right"
-history = "step"
-traction = 1.0
-[model]
-features = ["elastic"]
-[exact]
-solution = "bar-wave"
-[[axes]]
+const std::string bar = tests::head("t", "code-verification", "paper") + tests::pulled_bar + R"([[axes]]
 method = ["fem", "other"]
 cells = [10]
 courant = [0.5]
