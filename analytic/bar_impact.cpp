@@ -648,7 +648,7 @@ const BarImpact::Parameters& BarImpact::parameters() const { return record_->par
 const std::vector<BarImpact::Contact>& BarImpact::contacts() const { return record_->contacts; }
 const std::vector<BarImpact::Event>& BarImpact::events() const { return record_->events; }
 
-double BarImpact::at(Quantity quantity, double x, double t) const {
+double BarImpact::at(BarQuantity quantity, double x, double t) const {
   record_->check_time(t);
   const auto [bar, place] = record_->locate(x);
   const Chain& chain = record_->chain(bar, t);
@@ -660,9 +660,9 @@ double BarImpact::at(Quantity quantity, double x, double t) const {
   }
   const Line& line = record_->line(chain, low);
   switch (quantity) {
-    case Quantity::stress: return plain(line.right.stress);
-    case Quantity::velocity: return plain(line.right.velocity);
-    case Quantity::displacement:
+    case BarQuantity::stress: return plain(line.right.stress);
+    case BarQuantity::velocity: return plain(line.right.velocity);
+    case BarQuantity::displacement:
       return plain(line.displacement_at(t) + strain(record_->materials[bar], line.right) * (place - line.place_at(t)));
   }
   throw std::invalid_argument("bar-impact: no such quantity");
@@ -686,7 +686,7 @@ std::vector<Front> BarImpact::fronts(double t) const {
   return fronts;
 }
 
-double BarImpact::scale(Quantity quantity) const {
+double BarImpact::scale(BarQuantity quantity) const {
   const auto& r = *record_;
   const real difference = r.fastest - r.slowest;
   real stress = *std::max_element(r.stress.begin(), r.stress.end());
@@ -696,16 +696,16 @@ double BarImpact::scale(Quantity quantity) const {
   real displacement = 0;
   for (const auto& m : r.materials) displacement += stress * m.length / m.modulus;
   switch (quantity) {
-    case Quantity::stress: return plain(stress);
-    case Quantity::velocity: return plain(difference > 0 ? difference : stress / r.materials[0].impedance);
-    case Quantity::displacement: return plain(displacement);
+    case BarQuantity::stress: return plain(stress);
+    case BarQuantity::velocity: return plain(difference > 0 ? difference : stress / r.materials[0].impedance);
+    case BarQuantity::displacement: return plain(displacement);
   }
   throw std::invalid_argument("bar-impact: no such quantity");
 }
 
 double BarImpact::wave_speed(std::size_t bar) const { return plain(record_->materials.at(bar).speed); }
 
-double BarImpact::position(double x, double t) const { return x + at(Quantity::displacement, x, t); }
+double BarImpact::position(double x, double t) const { return x + at(BarQuantity::displacement, x, t); }
 
 double BarImpact::momentum(double t) const {
   return record_->integral(t, [](const Material& m, const State& s) { return m.density * s.velocity; });

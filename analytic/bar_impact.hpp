@@ -97,14 +97,14 @@ class BarImpact final : public ExactSolution {
   /// x: reference coordinate, i.e. position at t = 0. Where two bars touch at x, the right one is meant. At a front,
   /// the state to its right; at an event, the state just after. Throws std::domain_error for x in a gap or outside all
   /// bars, t outside [0, until], and where either is not finite.
-  double at(Quantity, double x, double t) const override;
+  double at(BarQuantity, double x, double t) const override;
   /// In reference coordinates. `travelled` goes on through reflections, contacts and other fronts: it is that of the
   /// longest path among incoming fronts of the same direction, else among all, else 0 where a front is set off.
   std::vector<Front> fronts(double t) const override;
   /// Stress: the largest |σ| met (if none, the largest ρc times the largest velocity difference of the bars; if none,
   /// 1). Velocity: the largest difference of velocities met, of bars and fixed ends (if none, the stress scale / ρc of
   /// the first bar). Displacement: by how much the stress scale lengthens all bars, Σ σL/E: not the flight.
-  double scale(Quantity) const override;
+  double scale(BarQuantity) const override;
 
   /// Of all states up to `until`, whatever t_end.
   double residual(double t_end) const override;

@@ -95,12 +95,12 @@ BarWave::BarWave(Parameters p) : p_(std::move(p)) {
   require(!(p_.left.fixed && p_.right.fixed), "one end must be free to carry a traction");
   check(p_.left);
   check(p_.right);
-  require(positive(scale(Quantity::stress)), "one end must carry a traction that is not zero");
+  require(positive(scale(BarQuantity::stress)), "one end must carry a traction that is not zero");
 }
 
 double BarWave::wave_speed() const { return std::sqrt(p_.youngs_modulus / p_.density); }
 
-double BarWave::at(Quantity quantity, double x, double t) const {
+double BarWave::at(BarQuantity quantity, double x, double t) const {
   const double length = p_.length, c = wave_speed();
   if (!(x >= -1e-9 * length && x <= (1 + 1e-9) * length) || !std::isfinite(t))
     throw std::domain_error("bar-wave: x must lie in the bar and t be finite");
@@ -109,10 +109,10 @@ double BarWave::at(Quantity quantity, double x, double t) const {
     // A wave along +x of stress σ carries the velocity −σ/(ρc), one along −x the velocity +σ/(ρc).
     const auto add = [&](double path, int direction, double sign) {
       const double retarded = t - path / c;
-      if (quantity == Quantity::stress) sum += sign * end.traction.value(retarded);
+      if (quantity == BarQuantity::stress) sum += sign * end.traction.value(retarded);
       const double minus = -direction * sign / (p_.density * c);
-      if (quantity == Quantity::velocity) sum += minus * end.traction.value(retarded);
-      if (quantity == Quantity::displacement) sum += minus * end.traction.integral(retarded);
+      if (quantity == BarQuantity::velocity) sum += minus * end.traction.value(retarded);
+      if (quantity == BarQuantity::displacement) sum += minus * end.traction.integral(retarded);
     };
     const double from_end = end.inward > 0 ? x : length - x;
     double sign = 1;
@@ -146,12 +146,12 @@ std::vector<Front> BarWave::fronts(double t) const {
   return fronts;
 }
 
-double BarWave::scale(Quantity quantity) const {
+double BarWave::scale(BarQuantity quantity) const {
   const double stress = std::max(largest(p_.left.traction), largest(p_.right.traction));
   switch (quantity) {
-    case Quantity::stress: return stress;
-    case Quantity::velocity: return stress / (p_.density * wave_speed());
-    case Quantity::displacement: return stress * p_.length / p_.youngs_modulus;
+    case BarQuantity::stress: return stress;
+    case BarQuantity::velocity: return stress / (p_.density * wave_speed());
+    case BarQuantity::displacement: return stress * p_.length / p_.youngs_modulus;
   }
   throw std::invalid_argument("bar-wave: no such quantity");
 }
@@ -166,7 +166,7 @@ BarProblem problem(const BarWave::Parameters& p) {
   return {p.youngs_modulus, p.density,
           p.length,         posed(p.left),
           posed(p.right),   [](double) { return 0.0; },
-          std::move(kinks), BarWave(p).scale(Quantity::stress),
+          std::move(kinks), BarWave(p).scale(BarQuantity::stress),
           p.length};
 }
 

@@ -48,10 +48,10 @@ class BarWave final : public ExactSolution {
   explicit BarWave(Parameters);
 
   std::string name() const override { return "bar-wave"; }
-  double at(Quantity, double x, double t) const override;
+  double at(BarQuantity, double x, double t) const override;
   std::vector<Front> fronts(double t) const override;
   /// Stress: the largest |f| of either end; velocity: that over ρc; displacement: that times L/E.
-  double scale(Quantity) const override;
+  double scale(BarQuantity) const override;
   /// Until every front has been reflected at both ends.
   double residual(double t_end) const override;
   double wave_speed() const;

@@ -65,11 +65,11 @@ bool jumps_only(const BarWave& bar) {
 /// it. Particles see nodal values interpolated, of whose square 1 − a s² is left in the mean; so do lines drawn between
 /// samples, and 1 − 2s²/3 is left for one sample a cell. USL damps the cosine, but for terms of O(kh)². USF has whole
 /// kicks and n half-way between integers, and so cos(nω_hΔt)/cos(ω_hΔt/2).
-std::optional<double> step_error_square(const BarWave& bar, const Discretisation& d, Quantity quantity, double t) {
+std::optional<double> step_error_square(const BarWave& bar, const Discretisation& d, BarQuantity quantity, double t) {
   const auto& p = bar.parameters();
   const double count = std::round(p.length / d.cell), step = d.courant * d.cell / bar.wave_speed(), a = filter(d);
   if (!(count >= 1) || std::abs(count * d.cell - p.length) > 1e-6 * d.cell) return std::nullopt;
-  const bool held = p.left.fixed || p.right.fixed, stress = quantity == Quantity::stress;
+  const bool held = p.left.fixed || p.right.fixed, stress = quantity == BarQuantity::stress;
   const double per_cell = d.scheme == Scheme::fem ? 1 : static_cast<double>(d.positions.size());
   double sum = 0;
   for (double m = 1; m <= count; ++m) {
@@ -126,9 +126,9 @@ std::optional<std::vector<Front>> separate_fronts(const BarWave& bar, const Disc
   return fronts;
 }
 
-std::optional<double> bar_wave_error(const BarWave& bar, const Discretisation& d, Quantity quantity, Norm norm,
+std::optional<double> bar_wave_error(const BarWave& bar, const Discretisation& d, BarQuantity quantity, Norm norm,
                                      double t) {
-  if (quantity == Quantity::velocity || !jumps_only(bar)) return std::nullopt;
+  if (quantity == BarQuantity::velocity || !jumps_only(bar)) return std::nullopt;
   if (norm == Norm::l2) {
     const auto mean_square = step_error_square(bar, d, quantity, t);
     return mean_square ? std::optional(std::sqrt(*mean_square)) : std::nullopt;
@@ -136,13 +136,14 @@ std::optional<double> bar_wave_error(const BarWave& bar, const Discretisation& d
   return airy_step_error(bar, d, quantity, norm, t);
 }
 
-double standing_mode_error(const StandingMode& mode, const Discretisation& d, Quantity quantity, Norm norm, double t) {
+double standing_mode_error(const StandingMode& mode, const Discretisation& d, BarQuantity quantity, Norm norm,
+                           double t) {
   const double omega = mode.wave_speed() * mode.wave_number();
   const double steps = t * mode.wave_speed() / (d.courant * d.cell);
   const auto [phase, damping] = step_factor(d, mode.wave_number() * d.cell);
   const double decay = std::exp(-damping * steps), numerical = phase * steps, exact = omega * t;
-  const double error = quantity == Quantity::velocity ? decay * std::cos(numerical) - std::cos(exact)
-                                                      : decay * std::sin(numerical) - std::sin(exact);
+  const double error = quantity == BarQuantity::velocity ? decay * std::cos(numerical) - std::cos(exact)
+                                                         : decay * std::sin(numerical) - std::sin(exact);
   // means of |φ|^p over whole quarter waves
   const double shape = norm == Norm::l1 ? 2 / pi : norm == Norm::l2 ? 1 / std::numbers::sqrt2 : 1;
   return std::abs(error) * mode.scale(quantity) * shape;
@@ -202,11 +203,12 @@ double front_width(const Discretisation& d, double travelled) {
   return std::cbrt(std::abs(1 + 3 * filter(d) - square(d.courant)) * travelled * square(d.cell) / 8);
 }
 
-std::optional<double> airy_step_error(const ExactSolution& solution, const Discretisation& d, Quantity quantity,
+std::optional<double> airy_step_error(const ExactSolution& solution, const Discretisation& d, BarQuantity quantity,
                                       Norm norm, double t) {
   const auto* bar = dynamic_cast<const BarWave*>(&solution);
-  const bool stress = quantity == Quantity::stress;
-  if (!bar || !jumps_only(*bar) || d.scheme == Scheme::mpm_usl || quantity == Quantity::velocity) return std::nullopt;
+  const bool stress = quantity == BarQuantity::stress;
+  if (!bar || !jumps_only(*bar) || d.scheme == Scheme::mpm_usl || quantity == BarQuantity::velocity)
+    return std::nullopt;
   if (norm == Norm::l1 || (norm == Norm::linf && stress)) return std::nullopt;
   const auto fronts = separate_fronts(*bar, d, t);
   if (!fronts) return std::nullopt;
@@ -221,7 +223,7 @@ std::optional<double> airy_step_error(const ExactSolution& solution, const Discr
   return norm == Norm::l2 ? std::sqrt(square_sum / p.length) : sup;
 }
 
-std::optional<double> predicted_error(const ExactSolution& solution, const Discretisation& d, Quantity quantity,
+std::optional<double> predicted_error(const ExactSolution& solution, const Discretisation& d, BarQuantity quantity,
                                       Norm norm, double t) {
   check(d);
   if (!std::isfinite(t)) throw std::invalid_argument("predicted_error: time must be finite");
@@ -231,7 +233,7 @@ std::optional<double> predicted_error(const ExactSolution& solution, const Discr
   return std::nullopt;
 }
 
-std::optional<double> expected_order(const ExactSolution& solution, Scheme scheme, Quantity quantity, Norm norm) {
+std::optional<double> expected_order(const ExactSolution& solution, Scheme scheme, BarQuantity quantity, Norm norm) {
   if (dynamic_cast<const StandingMode*>(&solution)) return 2;
   const auto* bar = dynamic_cast<const BarWave*>(&solution);
   if (!bar || !jumps_only(*bar)) return std::nullopt;
@@ -241,8 +243,8 @@ std::optional<double> expected_order(const ExactSolution& solution, Scheme schem
   // w ~ h^(2/3), and the tail behind a front decays as |ξ|^(−3/4): it ends where group velocities do, after O(1), or
   // under the fourth-order dissipation of USL after O(h^(1/2)) (Brenner, Thomée & Wahlbin, Lecture Notes in
   // Mathematics 434, 1975).
-  if (quantity == Quantity::stress) return one_of(scheme == Scheme::mpm_usl ? 5.0 / 8 : 1.0 / 2, 1.0 / 3, 0);
-  if (quantity == Quantity::displacement) return one_of(4.0 / 3, 1, 2.0 / 3);
+  if (quantity == BarQuantity::stress) return one_of(scheme == Scheme::mpm_usl ? 5.0 / 8 : 1.0 / 2, 1.0 / 3, 0);
+  if (quantity == BarQuantity::displacement) return one_of(4.0 / 3, 1, 2.0 / 3);
   return std::nullopt;
 }
 

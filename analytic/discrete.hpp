@@ -46,7 +46,7 @@ double front_width(const Discretisation&, double travelled);
 /// displacement L2 (σ₀/E) w^{3/2}/(3 √L) and L∞ 0.258819 (σ₀/E) w, fronts adding in quadrature (L∞: the widest). Good
 /// to 5 % (L∞ a sixth) at 200 cells. Nothing for USL, ramps and other norms, and where two fronts are within 10 widths
 /// of each other, or one is within 6 of an end or of where it entered, or narrower than a cell.
-std::optional<double> airy_step_error(const ExactSolution&, const Discretisation&, Quantity, Norm, double t);
+std::optional<double> airy_step_error(const ExactSolution&, const Discretisation&, BarQuantity, Norm, double t);
 
 /// Predicted norm of the error at time t, (∫|e|^p dx / L)^(1/p) over the bar, or nothing where there is no theory for
 /// this solution, scheme, quantity and norm. The field is stress constant in each cell, displacement on lines between
@@ -67,10 +67,10 @@ std::optional<double> airy_step_error(const ExactSolution&, const Discretisation
 /// Standing modes: L1, L2 and L∞ of the phase error |exp(−γt) sin(ω_h t) − sin(ωt)| for stress and displacement, the
 /// same with cosines for velocity; errors of amplitude are not in it, so take times where the exact solution vanishes.
 /// Velocities live half a step before displacements.
-std::optional<double> predicted_error(const ExactSolution&, const Discretisation&, Quantity, Norm, double t);
+std::optional<double> predicted_error(const ExactSolution&, const Discretisation&, BarQuantity, Norm, double t);
 
 /// Expected order in h at fixed Courant number, or nothing without theory. Steps: stress L1 ½ (USL ⅝), L2 ⅓, L∞ 0;
 /// displacement 4/3, 1, 2/3. Standing modes: 2.
-std::optional<double> expected_order(const ExactSolution&, Scheme, Quantity, Norm);
+std::optional<double> expected_order(const ExactSolution&, Scheme, BarQuantity, Norm);
 
 }  // namespace diptych::analytic

@@ -41,9 +41,9 @@ class SelfTest {
   }
 
  private:
-  double stress(double x, double t) const { return s_.at(Quantity::stress, x, t); }
-  double velocity(double x, double t) const { return s_.at(Quantity::velocity, x, t); }
-  double displacement(double x, double t) const { return s_.at(Quantity::displacement, x, t); }
+  double stress(double x, double t) const { return s_.at(BarQuantity::stress, x, t); }
+  double velocity(double x, double t) const { return s_.at(BarQuantity::velocity, x, t); }
+  double displacement(double x, double t) const { return s_.at(BarQuantity::displacement, x, t); }
 
   /// Kinks within `reach` of x at time t. One about to enter within reach / c counts as standing at its end.
   int kinks_near(double x, double t, double reach) const {

@@ -10,7 +10,7 @@
 
 namespace diptych::analytic {
 
-enum class Quantity { stress, velocity, displacement };
+enum class BarQuantity { stress, velocity, displacement };
 
 /// A discontinuity of stress on its way through the bar.
 struct Front {
@@ -40,13 +40,13 @@ class ExactSolution {
   virtual std::string name() const = 0;
   /// Value at reference coordinate x in [0, L] and time t ≥ 0; on a front the mean of both sides is not promised.
   /// Throws std::domain_error where x lies outside the bar or x or t is not finite.
-  virtual double at(Quantity, double x, double t) const = 0;
+  virtual double at(BarQuantity, double x, double t) const = 0;
   /// Discontinuities of stress at time t, ascending in position; empty for a smooth solution.
   virtual std::vector<Front> fronts(double t) const = 0;
   /// Natural size of a quantity, > 0, by which errors are divided.
-  virtual double scale(Quantity) const = 0;
+  virtual double scale(BarQuantity) const = 0;
   /// Whether this solution speaks of the quantity at all.
-  virtual bool gives(Quantity) const { return true; }
+  virtual bool gives(BarQuantity) const { return true; }
   /// The largest violation of the problem that this solution claims to solve, found by its own test over 0 < t ≤ t_end
   /// and longer where that is too short to see all of it: 1 is a wrong solution, round-off a right one, and what is
   /// not finite is not to be trusted. There is no default: a solution without a test of its own judges nothing.

@@ -24,18 +24,18 @@ class SelfTest {
   }
 
  private:
-  using Quantity = PlaneQuantity;
+  using BarQuantity = PlaneQuantity;
 
-  double value(Quantity q, std::size_t component, double x, double y, double t) const {
+  double value(BarQuantity q, std::size_t component, double x, double y, double t) const {
     return s_.at(q, x, y, t)[component];
   }
-  double in_x(Quantity q, std::size_t c, double x, double y, double t) const {
+  double in_x(BarQuantity q, std::size_t c, double x, double y, double t) const {
     return derivative([&](double z) { return value(q, c, z, y, t); }, x, d_);
   }
-  double in_y(Quantity q, std::size_t c, double x, double y, double t) const {
+  double in_y(BarQuantity q, std::size_t c, double x, double y, double t) const {
     return derivative([&](double z) { return value(q, c, x, z, t); }, y, d_);
   }
-  double in_time(Quantity q, std::size_t c, double x, double y, double t) const {
+  double in_time(BarQuantity q, std::size_t c, double x, double y, double t) const {
     return derivative([&](double z) { return value(q, c, x, y, z); }, t, tau_);
   }
 
@@ -47,21 +47,22 @@ class SelfTest {
       const double t = t_end_ * std::fmod(i * 0.5497004779019703, 1);
       if (x < 3 * d_ || x > p_.width - 3 * d_ || y < 3 * d_ || y > p_.height - 3 * d_ || t < 3 * tau_) continue;
       const double per_force = p_.smooth_length / stress_scale_;
-      note(r_.momentum, (rho * in_time(Quantity::velocity, 0, x, y, t) - in_x(Quantity::stress, 0, x, y, t) -
-                         in_y(Quantity::stress, 2, x, y, t)) *
+      note(r_.momentum, (rho * in_time(BarQuantity::velocity, 0, x, y, t) - in_x(BarQuantity::stress, 0, x, y, t) -
+                         in_y(BarQuantity::stress, 2, x, y, t)) *
                             per_force);
-      note(r_.momentum, (rho * in_time(Quantity::velocity, 1, x, y, t) - in_x(Quantity::stress, 2, x, y, t) -
-                         in_y(Quantity::stress, 1, x, y, t)) *
+      note(r_.momentum, (rho * in_time(BarQuantity::velocity, 1, x, y, t) - in_x(BarQuantity::stress, 2, x, y, t) -
+                         in_y(BarQuantity::stress, 1, x, y, t)) *
                             per_force);
-      const double xx = in_x(Quantity::displacement, 0, x, y, t), yy = in_y(Quantity::displacement, 1, x, y, t);
-      const double shear = in_y(Quantity::displacement, 0, x, y, t) + in_x(Quantity::displacement, 1, x, y, t);
-      const auto stress = s_.at(Quantity::stress, x, y, t);
+      const double xx = in_x(BarQuantity::displacement, 0, x, y, t), yy = in_y(BarQuantity::displacement, 1, x, y, t);
+      const double shear = in_y(BarQuantity::displacement, 0, x, y, t) + in_x(BarQuantity::displacement, 1, x, y, t);
+      const auto stress = s_.at(BarQuantity::stress, x, y, t);
       note(r_.constitutive, (stress[0] - lambda * (xx + yy) - 2 * mu * xx) / stress_scale_);
       note(r_.constitutive, (stress[1] - lambda * (xx + yy) - 2 * mu * yy) / stress_scale_);
       note(r_.constitutive, (stress[2] - mu * shear) / stress_scale_);
       for (const std::size_t c : {0UL, 1UL}) {
         note(r_.compatibility,
-             (value(Quantity::velocity, c, x, y, t) - in_time(Quantity::displacement, c, x, y, t)) / velocity_scale_);
+             (value(BarQuantity::velocity, c, x, y, t) - in_time(BarQuantity::displacement, c, x, y, t)) /
+                 velocity_scale_);
       }
       ++r_.points;
     }
@@ -70,8 +71,8 @@ class SelfTest {
 
   /// `normal`: the component across the side, which is its direction too.
   void side(const PlaneProblem::Side& held, std::size_t normal, double x, double y, double t) {
-    const auto u = s_.at(Quantity::displacement, x, y, t), v = s_.at(Quantity::velocity, x, y, t);
-    const auto stress = s_.at(Quantity::stress, x, y, t);
+    const auto u = s_.at(BarQuantity::displacement, x, y, t), v = s_.at(BarQuantity::velocity, x, y, t);
+    const auto stress = s_.at(BarQuantity::stress, x, y, t);
     switch (held.support) {
       case PlaneProblem::Support::free:
         note(r_.boundary, stress[normal] / stress_scale_);
@@ -103,7 +104,7 @@ class SelfTest {
     for (int i = 1; i <= 200; ++i) {
       const double x = p_.width * std::fmod(i * 0.7548776662466927, 1);
       const double y = p_.height * std::fmod(i * 0.5698402909980532, 1);
-      const auto u = s_.at(Quantity::displacement, x, y, 0), v = s_.at(Quantity::velocity, x, y, 0);
+      const auto u = s_.at(BarQuantity::displacement, x, y, 0), v = s_.at(BarQuantity::velocity, x, y, 0);
       const auto u0 = p_.initial_displacement ? p_.initial_displacement(x, y) : std::array<double, 2>{};
       const auto v0 = p_.initial_velocity ? p_.initial_velocity(x, y) : std::array<double, 2>{};
       for (const std::size_t c : {0UL, 1UL}) {

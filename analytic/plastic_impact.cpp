@@ -60,7 +60,7 @@ double PlasticImpact::leaving_integral(double since_contact) const {
   return sum + arriving_[k] * rest;
 }
 
-double PlasticImpact::at(Quantity quantity, double x, double t) const {
+double PlasticImpact::at(BarQuantity quantity, double x, double t) const {
   const double length = p_.length, slack = 1e-9 * length, right_begin = length + p_.gap;
   const bool left = x <= length + std::min(slack, p_.gap / 2);
   const double depth = left ? length - x : x - right_begin;  // below the face
@@ -70,9 +70,9 @@ double PlasticImpact::at(Quantity quantity, double x, double t) const {
   const double since = t - contact_begin(), direct = since - depth / c_, reflected = direct + 2 * depth / c_ - period_;
   const double centre = (p_.left_velocity + p_.right_velocity) / 2, towards = left ? 1 : -1;
   switch (quantity) {
-    case Quantity::stress: return p_.density * c_ * (leaving(direct) - leaving(reflected)) / 2;
-    case Quantity::velocity: return centre + towards * (leaving(direct) + leaving(reflected)) / 2;
-    case Quantity::displacement: {
+    case BarQuantity::stress: return p_.density * c_ * (leaving(direct) - leaving(reflected)) / 2;
+    case BarQuantity::velocity: return centre + towards * (leaving(direct) + leaving(reflected)) / 2;
+    case BarQuantity::displacement: {
       const double covered = speed_ * (contact_begin() + period_ / 2);  // so that it is Vt before contact
       return centre * t + towards * (covered + (leaving_integral(direct) + leaving_integral(reflected)) / 2);
     }
@@ -96,11 +96,11 @@ std::vector<Front> PlasticImpact::fronts(double t) const {
           {p_.length + p_.gap + depth, inward ? -1 : +1, jump, path}};
 }
 
-double PlasticImpact::scale(Quantity quantity) const {
+double PlasticImpact::scale(BarQuantity quantity) const {
   switch (quantity) {
-    case Quantity::stress: return std::min(p_.yield_stress, p_.density * c_ * speed_);
-    case Quantity::velocity: return speed_;
-    case Quantity::displacement: return speed_ * p_.length / c_;
+    case BarQuantity::stress: return std::min(p_.yield_stress, p_.density * c_ * speed_);
+    case BarQuantity::velocity: return speed_;
+    case BarQuantity::displacement: return speed_ * p_.length / c_;
   }
   throw std::invalid_argument("plastic-impact: no such quantity");
 }
@@ -133,9 +133,9 @@ class SelfTest {
   }
 
  private:
-  double stress(double x, double t) const { return s_.at(Quantity::stress, x, t); }
-  double velocity(double x, double t) const { return s_.at(Quantity::velocity, x, t); }
-  double displacement(double x, double t) const { return s_.at(Quantity::displacement, x, t); }
+  double stress(double x, double t) const { return s_.at(BarQuantity::stress, x, t); }
+  double velocity(double x, double t) const { return s_.at(BarQuantity::velocity, x, t); }
+  double displacement(double x, double t) const { return s_.at(BarQuantity::displacement, x, t); }
 
   double place(bool left, double depth) const { return left ? p_.length - depth : p_.length + p_.gap + depth; }
 

@@ -40,11 +40,11 @@ class PlasticImpact final : public ExactSolution {
   std::string name() const override { return "plastic-impact"; }
   /// x is the coordinate at t = 0, when displacements are zero. Throws std::domain_error in the gap and outside, and
   /// where t is not finite. Where the gap is 0, x = L is the face of the left bar.
-  double at(Quantity, double x, double t) const override;
+  double at(BarQuantity, double x, double t) const override;
   /// One in each bar while they touch, none else. travelled counts from its latest start at the face.
   std::vector<Front> fronts(double t) const override;
   /// Stress: the largest |σ|, Y or ρcV if that is less; velocity: V; displacement: VL/c.
-  double scale(Quantity) const override;
+  double scale(BarQuantity) const override;
 
   double residual(double t_end) const override;
   std::optional<std::vector<Contact>> contact_times() const override {

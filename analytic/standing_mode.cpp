@@ -31,26 +31,26 @@ double StandingMode::wave_number() const {
   return half_waves * std::numbers::pi / p_.length;
 }
 
-double StandingMode::at(Quantity quantity, double x, double t) const {
+double StandingMode::at(BarQuantity quantity, double x, double t) const {
   if (!(x >= -1e-9 * p_.length && x <= (1 + 1e-9) * p_.length) || !std::isfinite(t))
     throw std::domain_error("standing-mode: x must lie in the bar and t be finite");
   const double k = wave_number(), omega = wave_speed() * k;
   const double shape = p_.left_fixed ? std::sin(k * x) : std::cos(k * x);
   const double slope = p_.left_fixed ? std::cos(k * x) : -std::sin(k * x);  // dφ/d(kx)
   switch (quantity) {
-    case Quantity::stress: return p_.youngs_modulus * p_.amplitude * k * slope * std::sin(omega * t);
-    case Quantity::velocity: return p_.amplitude * omega * shape * std::cos(omega * t);
-    case Quantity::displacement: return p_.amplitude * shape * std::sin(omega * t);
+    case BarQuantity::stress: return p_.youngs_modulus * p_.amplitude * k * slope * std::sin(omega * t);
+    case BarQuantity::velocity: return p_.amplitude * omega * shape * std::cos(omega * t);
+    case BarQuantity::displacement: return p_.amplitude * shape * std::sin(omega * t);
   }
   throw std::invalid_argument("standing-mode: no such quantity");
 }
 
-double StandingMode::scale(Quantity quantity) const {
+double StandingMode::scale(BarQuantity quantity) const {
   const double amplitude = std::abs(p_.amplitude), k = wave_number();
   switch (quantity) {
-    case Quantity::stress: return p_.youngs_modulus * amplitude * k;
-    case Quantity::velocity: return amplitude * wave_speed() * k;
-    case Quantity::displacement: return amplitude;
+    case BarQuantity::stress: return p_.youngs_modulus * amplitude * k;
+    case BarQuantity::velocity: return amplitude * wave_speed() * k;
+    case BarQuantity::displacement: return amplitude;
   }
   throw std::invalid_argument("standing-mode: no such quantity");
 }
@@ -67,7 +67,7 @@ BarProblem problem(const StandingMode::Parameters& p) {
           {p.right_fixed, free},
           velocity,
           {},
-          mode.scale(Quantity::stress),
+          mode.scale(BarQuantity::stress),
           1 / k};
 }
 

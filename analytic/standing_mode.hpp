@@ -18,9 +18,9 @@ class StandingMode final : public ExactSolution {
   explicit StandingMode(Parameters);  ///< throws std::invalid_argument where a parameter is out of range
 
   std::string name() const override { return "standing-mode"; }
-  double at(Quantity, double x, double t) const override;
+  double at(BarQuantity, double x, double t) const override;
   std::vector<Front> fronts(double) const override { return {}; }
-  double scale(Quantity) const override;  ///< the amplitude of the quantity
+  double scale(BarQuantity) const override;  ///< the amplitude of the quantity
   double residual(double t_end) const override;
   double wave_number() const;
   double wave_speed() const;

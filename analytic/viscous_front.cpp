@@ -92,15 +92,15 @@ double viscous_front_l1(double viscosity, double t) { return spread(viscosity, t
 
 double viscous_front_l2(double viscosity, double t) { return std::sqrt(square_of_both_sides * spread(viscosity, t)); }
 
-std::optional<double> viscous_step_error(const ExactSolution& solution, double viscosity, Quantity quantity, Norm norm,
-                                         double t) {
+std::optional<double> viscous_step_error(const ExactSolution& solution, double viscosity, BarQuantity quantity,
+                                         Norm norm, double t) {
   require(positive(viscosity), "viscous_step_error: viscosity must be > 0");
   require(std::isfinite(t), "viscous_step_error: time must be finite");
   const auto* bar = dynamic_cast<const BarWave*>(&solution);
-  if (!bar || !steps_only(*bar) || quantity == Quantity::displacement || norm == Norm::linf) return std::nullopt;
+  if (!bar || !steps_only(*bar) || quantity == BarQuantity::displacement || norm == Norm::linf) return std::nullopt;
   const auto fronts = smoothed_fronts(*bar, viscosity, t);
   if (!fronts) return std::nullopt;
-  const double unit = quantity == Quantity::stress ? 1 : 1 / (bar->parameters().density * bar->wave_speed());
+  const double unit = quantity == BarQuantity::stress ? 1 : 1 / (bar->parameters().density * bar->wave_speed());
   double sum = 0;
   for (const auto& front : *fronts) {
     const double jump = std::abs(front.stress_jump) * unit, since = front.travelled / bar->wave_speed();

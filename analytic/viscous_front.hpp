@@ -38,6 +38,6 @@ double viscous_front_l2(double viscosity, double t);
 /// ends and twice as far from the next one. √(2νt) should be 8 cells or more and 3 times front_width of discrete.hpp:
 /// lumped FEM is then within 0.3 % of this, but at 2.2 widths 2 % above it and at 1.7 widths 13 %, in L1. Throws
 /// std::invalid_argument where ν is not > 0 or t not finite.
-std::optional<double> viscous_step_error(const ExactSolution&, double viscosity, Quantity, Norm, double t);
+std::optional<double> viscous_step_error(const ExactSolution&, double viscosity, BarQuantity, Norm, double t);
 
 }  // namespace diptych::analytic

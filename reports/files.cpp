@@ -15,6 +15,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "reports/text.hpp"
+
 namespace diptych::reports {
 namespace {
 
@@ -214,13 +216,6 @@ Json json_of(const Gate& gate) {
 // ---- JUnit
 
 std::string plain(double value) { return std::isnan(value) ? "nan" : fmt::format("{}", value); }
-
-/// XML 1.0 has no control characters, not even escaped ones.
-std::string printable(std::string text) {
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t') c = '?';
-  return text;
-}
 
 std::string details(const Gate& gate) {
   std::string out = fmt::format("{}\nquantity: {}\nformula: {}\nreason: {}\n", gate.message, gate.quantity,

@@ -9,12 +9,13 @@
 #include <string_view>
 
 #include "reports/files.hpp"
+#include "reports/text.hpp"
 
 namespace diptych::reports {
 namespace {
 
 // No '<', '>' or '&': a browser that reads the page as HTML takes them as they are, as XML they would be escaped.
-constexpr const char* looks = R"(
+constexpr const char* style_sheet = R"(
 :root { color-scheme: light; }
 body { margin: 2rem auto; max-width: 76rem; padding: 0 1.25rem; color: #1a1a1a; background: #ffffff;
        font: 16px/1.5 system-ui, -apple-system, "Segoe UI", Roboto, "DejaVu Sans", sans-serif; }
@@ -47,13 +48,6 @@ footer p { max-width: none; margin: 0.1rem 0; overflow-wrap: anywhere; }
                .wide img { width: 100%; min-width: 0; } a { color: inherit; } }
 )";
 
-/// XML 1.0 has no control characters, not even escaped ones.
-std::string printable(std::string text) {
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t') c = ' ';
-  return text;
-}
-
 pugi::xml_node add(pugi::xml_node parent, const char* tag, const std::string& text = "", const char* kind = nullptr) {
   pugi::xml_node node = parent.append_child(tag);
   if (kind != nullptr) node.append_attribute("class") = kind;
@@ -85,7 +79,7 @@ void check_picture(const std::string& path, const std::string& of) {
     throw std::invalid_argument(of + ": '" + path + "' is no path relative to the page");
 }
 
-void check(const Page& page) {
+void check_page(const Page& page) {
   for (const Page::Section& section : page.sections) {
     check_picture(section.picture, "section '" + section.heading + "'");
     for (const Page::Row& row : section.rows) {
@@ -164,7 +158,7 @@ void add_section(pugi::xml_node main, const Page::Section& section, const std::s
 }  // namespace
 
 std::string page_html(const Page& page) {
-  check(page);
+  check_page(page);
   const std::string title = page.title.empty() ? "Results" : page.title;
   pugi::xml_document document;
   document.append_child(pugi::node_doctype).set_value("html");
@@ -177,7 +171,7 @@ std::string page_html(const Page& page) {
   view.append_attribute("name") = "viewport";
   view.append_attribute("content") = "width=device-width, initial-scale=1";
   add(head, "title", title);
-  add(head, "style", looks);
+  add(head, "style", style_sheet);
 
   pugi::xml_node body = add(root, "body"), main = add(body, "main");
   add(main, "h1", title);

@@ -239,7 +239,7 @@ void write_panel(const Sheet& sheet, const PlateFigure& figure, std::size_t inde
 
 // ---- the data
 
-std::string csv_of(const PlateFigure& figure) {
+std::string csv_of_plate(const PlateFigure& figure) {
   std::string out = csv_heading(figure.id, figure.title, figure.notes);
   out += csv_note("x", figure.x_label) + csv_note("y", figure.y_label);
   out += "# part: map, a value at each node; or the kind of a contour, its level, and a number for each of its lines\n";
@@ -266,7 +266,7 @@ std::string csv_of(const PlateFigure& figure) {
   return out;
 }
 
-void check(const PlateFigure& figure) {
+void check_plate_figure(const PlateFigure& figure) {
   check_id(figure.id);
   const auto refuse = [&](const std::string& why) {
     throw std::invalid_argument("figure '" + figure.id + "': " + why);
@@ -301,7 +301,7 @@ void check(const PlateFigure& figure) {
 
 Drawn draw(const PlateFigure& figure, const std::filesystem::path& directory, std::string& message) {
   message.clear();
-  check(figure);
+  check_plate_figure(figure);
   const auto write = [&](std::ostream& gp) {
     const Layout layout = layout_of(figure);
     const Sheet sheet{gp, layout.width, layout.height, true};
@@ -309,7 +309,7 @@ Drawn draw(const PlateFigure& figure, const std::filesystem::path& directory, st
     for (std::size_t i = 0; i < figure.panels.size(); ++i) write_panel(sheet, figure, i, layout);
     gp << "unset multiplot\nset output\n";
   };
-  return draw_files(figure.id, csv_of(figure), write, directory, message);
+  return draw_files(figure.id, csv_of_plate(figure), write, directory, message);
 }
 
 }  // namespace diptych::reports

@@ -20,7 +20,7 @@ enum : std::size_t { left_side, right_side, bottom_side, top_side };
 
 // ---- sizes of the picture [px]
 
-constexpr double page = 900, edge = 40, tallest = 540, widest = 380;
+constexpr double page = 900, page_edge = 40, tallest = 540, widest = 380;
 constexpr double roller = 5, roller_step = 34, hatch = 8, hatch_step = 8;  // of supports
 constexpr double platen_gap = 8, platen_thickness = 14, overhang = 10;
 constexpr double arrow_length = 36, arrow_gap = 5, arrow_step = 50;  // of loads
@@ -40,7 +40,7 @@ Point operator+(Point a, Point b) { return {a.x + b.x, a.y + b.y}; }
 Point operator*(double s, Point a) { return {s * a.x, s * a.y}; }
 
 /// A side of the plate on the page.
-struct Run {
+struct PageSide {
   Point corner, along, out;  ///< along and out have length 1; out points away from the plate
   double length = 0;
   Point at(double distance, double outwards) const { return corner + distance * along + outwards * out; }
@@ -62,18 +62,18 @@ struct Layout {
   double pixels = 1, height = 0;          ///< pixels: of one unit of length
   double x0 = 0, x1 = 0, y0 = 0, y1 = 0;  ///< of the plate, y0 its top
   double insets = 0;                      ///< left edge of the insets
-  std::array<Run, 4> runs;
+  std::array<PageSide, 4> runs;
 
   Point at(double x, double y) const { return {x0 + x * pixels, y1 - y * pixels}; }
 };
 
 Layout layout_of(const ProblemFigure& figure) {
   Layout layout;
-  layout.heading = heading_of(figure.title, figure.notes, page - 2 * edge);
+  layout.heading = heading_of(figure.title, figure.notes, page - 2 * page_edge);
   const auto& sides = figure.sides;
   const double left_label = sides[left_side].label.empty() ? 0 : text_line;
   layout.pixels = std::min(tallest / figure.height, widest / figure.width);
-  layout.x0 = std::max(edge + 20, 20 + text_line + dimension_gap + depth(sides[left_side]) + left_label);
+  layout.x0 = std::max(page_edge + 20, 20 + text_line + dimension_gap + depth(sides[left_side]) + left_label);
   layout.x1 = layout.x0 + layout.pixels * figure.width;
   layout.y0 = margin + layout.heading.height() + 24 + depth(sides[top_side]);
   layout.y1 = layout.y0 + layout.pixels * figure.height;
@@ -132,13 +132,13 @@ std::vector<double> spread(double length, double step) {
   return places;
 }
 
-void draw_ground(const Canvas& canvas, const Run& run, double outwards) {
+void draw_ground(const Canvas& canvas, const PageSide& run, double outwards) {
   canvas.line(run.at(0, outwards), run.at(run.length, outwards), std::string("lw 1.2 ") + ink);
   for (double s = hatch_step; s <= run.length + 1e-9; s += hatch_step)
     canvas.line(run.at(s, outwards), run.at(s - hatch, outwards + hatch), std::string("lw 0.7 ") + pale);
 }
 
-void draw_support(const Canvas& canvas, const Run& run, const Side& side) {
+void draw_support(const Canvas& canvas, const PageSide& run, const Side& side) {
   const std::string outline = std::string(" border ") + ink + " lw 1.1";
   if (side.support == "roller") {
     for (const double s : spread(run.length, roller_step))
@@ -156,7 +156,7 @@ void draw_support(const Canvas& canvas, const Run& run, const Side& side) {
   }
 }
 
-void draw_load(const Canvas& canvas, const Run& run, const Side& side, bool upright) {
+void draw_load(const Canvas& canvas, const PageSide& run, const Side& side, bool upright) {
   if (side.load.empty()) return;
   const double near = support_depth(side) + arrow_gap, far = near + arrow_length;
   for (const double s : spread(run.length, arrow_step))
@@ -167,7 +167,7 @@ void draw_load(const Canvas& canvas, const Run& run, const Side& side, bool upri
 }
 
 /// What a support is called: right of a side that lies, along one that stands.
-void draw_support_label(const Canvas& canvas, const Run& run, const Side& side, bool upright) {
+void draw_support_label(const Canvas& canvas, const PageSide& run, const Side& side, bool upright) {
   if (side.label.empty()) return;
   const double middle = side.support == "platen" ? platen_gap + platen_thickness / 2 : support_depth(side) / 2;
   if (upright)
@@ -177,7 +177,8 @@ void draw_support_label(const Canvas& canvas, const Run& run, const Side& side, 
                 std::string("center rotate by 90 font ',12' ") + black_text);
 }
 
-void draw_dimension(const Canvas& canvas, const Run& run, double outwards, const std::string& label, bool upright) {
+void draw_dimension(const Canvas& canvas, const PageSide& run, double outwards, const std::string& label,
+                    bool upright) {
   const std::string thin = std::string("lw 0.8 ") + pale;
   for (const double s : {0.0, run.length}) canvas.line(run.at(s, outwards - 9), run.at(s, outwards + 6), thin);
   canvas.arrow(run.at(0, outwards), run.at(run.length, outwards), std::string("lw 1 ") + ink, "heads");
@@ -295,7 +296,7 @@ void write_script(std::ostream& gp, const ProblemFigure& figure) {
      << "unset border; unset tics; unset key; set datafile separator ','\n"
      << fmt::format("set xrange [0:{:.0f}]; set yrange [{:.0f}:0]\n", page, layout.height);
   write_heading(layout.heading, [&](const std::string& line, double y, const char* style) {
-    canvas.text(line, {edge, y}, style);
+    canvas.text(line, {page_edge, y}, style);
   });
   write_mesh(gp, layout, figure);
   draw_weak_zone(canvas, layout, figure);

@@ -28,17 +28,17 @@ const Sample* sample_at(const Run& run, double asked) {
 
 bool has_logarithm(double error) { return std::isfinite(error) && error > 0; }
 
-std::string number(double value, const char* format) {
+std::string formatted(double value, const char* format) {
   return std::isnan(value) ? "nan" : fmt::format(fmt::runtime(format), value);  // never "-nan"
 }
-std::string exponent(double value) { return number(value, "{:.3e}"); }
-std::string fixed(double value) { return number(value, "{:.3f}"); }
-std::string general(double value) { return number(value, "{:.6g}"); }
+std::string exponent(double value) { return formatted(value, "{:.3e}"); }
+std::string fixed(double value) { return formatted(value, "{:.3f}"); }
+std::string general(double value) { return formatted(value, "{:.6g}"); }
 std::string order_text(const std::optional<double>& order) { return order ? fixed(*order) : "-"; }
 
 std::string ratio_text(double ratio) {
   const double size = std::abs(ratio);
-  return ratio == 0 || (size >= 1e-2 && size < 1e3) ? fixed(ratio) : number(ratio, "{:.1e}");
+  return ratio == 0 || (size >= 1e-2 && size < 1e3) ? fixed(ratio) : formatted(ratio, "{:.1e}");
 }
 
 /// "0.5" or, where values differ, "0.498 to 0.502".
@@ -63,7 +63,7 @@ std::string fit_text(const Group& group, double asked, const std::string& field)
     std::string value = "-";
     try {
       const Fit fit = fit_order(sizes, errors);
-      const std::string spread = std::isnan(fit.standard_error) ? "n/a" : number(fit.standard_error, "{:.2g}");
+      const std::string spread = std::isnan(fit.standard_error) ? "n/a" : formatted(fit.standard_error, "{:.2g}");
       value = fmt::format("{} ± {}", fixed(fit.order), spread);
     } catch (const std::invalid_argument&) {
       // Too few levels, or an error that has no logarithm: "-" says so.
@@ -166,7 +166,7 @@ Grid cost_grid(const Case& data, const Group& group) {
       row.cells.insert(
           row.cells.end(),
           {std::to_string(run->unknowns), general(run->courant), std::to_string(run->steps), std::to_string(work),
-           std::to_string(run->node_steps), std::to_string(run->bytes), number(run->wall_seconds, "{:.4g}")});
+           std::to_string(run->node_steps), std::to_string(run->bytes), formatted(run->wall_seconds, "{:.4g}")});
     } else {
       row.remark = remark(*run);
     }
@@ -242,10 +242,10 @@ Grid books_grid(const Case& data, const Group& group) {
     Row row{{std::to_string(run->cells)}, {}};
     for (const char* name : {"energy.lost", "energy.drift", "momentum.drift"}) {
       const auto measure = run->measures.find(name);
-      row.cells.push_back(measure == run->measures.end() ? "-" : number(measure->second, "{:.3e}"));
+      row.cells.push_back(measure == run->measures.end() ? "-" : formatted(measure->second, "{:.3e}"));
     }
     for (const Sample& sample : run->samples)
-      for (const ProbeValue& probe : sample.probes) row.cells.push_back(number(probe.value, "{:.6g}"));
+      for (const ProbeValue& probe : sample.probes) row.cells.push_back(formatted(probe.value, "{:.6g}"));
     grid.rows.push_back(row);
   }
   return grid;

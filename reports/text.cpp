@@ -32,4 +32,10 @@ std::vector<std::string> lines_of(const std::string& text, double pixels, double
   return lines;
 }
 
+std::string printable(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t') c = '?';
+  return text;
+}
+
 }  // namespace diptych::reports

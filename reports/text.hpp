@@ -1,4 +1,4 @@
-// Lengths of text, and breaking it into lines.
+// Lengths of text, breaking it into lines, and what of it a file of XML can hold.
 #pragma once
 
 #include <string>
@@ -11,5 +11,8 @@ std::size_t characters(std::string_view text);  ///< UTF-8 code points
 
 /// Breaks at spaces into lines of at most so many pixels, where words allow.
 std::vector<std::string> lines_of(const std::string& text, double pixels, double per_character);
+
+/// XML 1.0 has no control characters, not even escaped ones: each becomes a question mark.
+std::string printable(std::string text);
 
 }  // namespace diptych::reports

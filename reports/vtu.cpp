@@ -63,7 +63,7 @@ pugi::xml_node begin_file(pugi::xml_document& document, const char* type) {
   return root;
 }
 
-std::string text_of(const pugi::xml_document& document) {
+std::string xml_of(const pugi::xml_document& document) {
   std::ostringstream out;
   document.save(out, " ");
   return out.str();
@@ -150,7 +150,7 @@ void write_vtu(const std::filesystem::path& path, const VtuMesh& mesh, const std
     for (std::size_t c = 0; c < array.components.size(); ++c)
       node.append_attribute(fmt::format("ComponentName{}", c).c_str()) = array.components[c].c_str();
   }
-  write_file(path, text_of(document));
+  write_file(path, xml_of(document));
 }
 
 void write_pvd(const std::filesystem::path& path, const std::vector<std::pair<double, std::string>>& steps) {
@@ -164,7 +164,7 @@ void write_pvd(const std::filesystem::path& path, const std::vector<std::pair<do
     step.append_attribute("part") = 0;
     step.append_attribute("file") = file.c_str();
   }
-  write_file(path, text_of(document));
+  write_file(path, xml_of(document));
 }
 
 }  // namespace diptych::reports

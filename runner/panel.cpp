@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <deque>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -90,23 +89,20 @@ Panel diffusion_panel() {
   return p;
 }
 
-/// A deque, so that a row stays where it is when another one is added.
-std::deque<Panel>& table() {
-  static std::deque<Panel> rows{
-      fem_panel(),
-      mpm_panel("mpm-usf", "MPM, USF", mpm::Scheme::usf, BarTheory::mpm_usf, PlateTheory::usf),
-      mpm_panel("mpm-usl", "MPM, USL", mpm::Scheme::usl, BarTheory::mpm_usl, PlateTheory::usl),
-      mpm_panel("mpm-musl", "MPM, MUSL", mpm::Scheme::musl, BarTheory::mpm_musl, PlateTheory::musl),
-      diffusion_panel(),
-  };
+}  // namespace
+
+Registry<Panel>& panels() {
+  static Registry<Panel> rows(
+      {
+          fem_panel(),
+          mpm_panel("mpm-usf", "MPM, USF", mpm::Scheme::usf, BarTheory::mpm_usf, PlateTheory::usf),
+          mpm_panel("mpm-usl", "MPM, USL", mpm::Scheme::usl, BarTheory::mpm_usl, PlateTheory::usl),
+          mpm_panel("mpm-musl", "MPM, MUSL", mpm::Scheme::musl, BarTheory::mpm_musl, PlateTheory::musl),
+          diffusion_panel(),
+      },
+      "a method");
   return rows;
 }
-
-auto row(const std::string& id) {
-  return std::find_if(table().begin(), table().end(), [&](const Panel& p) { return p.id == id; });
-}
-
-}  // namespace
 
 bool Panel::takes(SceneKind kind) const {
   switch (kind) {
@@ -122,39 +118,31 @@ bool Panel::has_theory(SceneKind kind) const {
 }
 
 const Panel& panel(const std::string& id) {
-  const auto found = row(id);
-  if (found != table().end()) return *found;
+  if (const Panel* found = panels().find(id)) return *found;
   std::string ids;
-  for (const Panel& p : table()) ids += (ids.empty() ? "" : ", ") + p.id;
+  for (const Panel& p : panels()) ids += (ids.empty() ? "" : ", ") + p.id;
   throw std::invalid_argument(fmt::format("no method is called '{}'; there are {}", id, ids));
 }
 
 const Panel& panel(analytic::Scheme scheme) {
-  for (const Panel& p : table())
+  for (const Panel& p : panels())
     if (p.bar_theory == scheme) return p;
   throw std::invalid_argument("no method is of this scheme");
 }
 
 std::vector<std::string> panels_for(SceneKind kind) {
   std::vector<std::string> ids;
-  for (const Panel& p : table())
+  for (const Panel& p : panels())
     if (p.takes(kind)) ids.push_back(p.id);
   return ids;
 }
 
 std::vector<reports::PanelLook> looks() {
   std::vector<reports::PanelLook> all;
-  for (const Panel& p : table())
+  for (const Panel& p : panels())
     if (std::none_of(all.begin(), all.end(), [&](const auto& look) { return look.id == p.look.id; }))
       all.push_back(p.look);
   return all;
 }
-
-AddedPanel::AddedPanel(Panel added) : id_(added.id) {
-  if (row(id_) != table().end()) throw std::invalid_argument("there is a method '" + id_ + "' already");
-  table().push_back(std::move(added));
-}
-
-AddedPanel::~AddedPanel() { table().erase(row(id_)); }
 
 }  // namespace diptych::runner

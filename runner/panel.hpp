@@ -17,6 +17,7 @@
 #include "hinge/step/record.hpp"
 #include "reports/look.hpp"
 #include "runner/diffusion_alone.hpp"
+#include "runner/registry.hpp"
 
 namespace diptych::runner {
 
@@ -81,18 +82,8 @@ std::vector<std::string> panels_for(SceneKind);
 /// The looks of all panels, each once.
 std::vector<reports::PanelLook> looks();
 
-/// One row more for as long as it lives: how a test, or a program that reads the results of another code, adds a panel.
-/// Not to be made or destroyed while cases are running.
-class AddedPanel {
- public:
-  /// Throws std::invalid_argument where a panel has this id already.
-  explicit AddedPanel(Panel);
-  ~AddedPanel();
-  AddedPanel(const AddedPanel&) = delete;
-  AddedPanel& operator=(const AddedPanel&) = delete;
-
- private:
-  std::string id_;
-};
+/// All panels.
+Registry<Panel>& panels();
+using AddedPanel = Added<Panel, panels>;
 
 }  // namespace diptych::runner

@@ -14,7 +14,10 @@ case $what in
     ;;
   tidy)
     need clang-tidy-19 clang-tidy-19
-    mapfile -t files < <(find "$4" -name '*.cpp' | sort)
+    # As the build compiles them: several at once where it does.
+    mapfile -t files < <(sed -n "s/^  \"file\": \"\(.*[.]c[px]*\)\".*/\1/p" "$3/compile_commands.json" |
+      grep -E "^$PWD/$4/|/diptych_$4[.]dir/Unity/" | sort -u)
+    [ "${#files[@]}" -gt 0 ] || { echo "no sources of $4 in $3/compile_commands.json"; exit 1; }
     clang-tidy-19 -p "$3" --quiet "${files[@]}" 2> >(grep -vE '^[0-9]+ warnings? (and [0-9]+ errors? )?generated' >&2)
     ;;
 esac

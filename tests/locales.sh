@@ -25,7 +25,6 @@ draw() { # draw NAME COMMAND...
 }
 
 draw plain env LC_ALL=C.UTF-8
-draw C env LC_ALL=C
 draw nothing env -i
 # One with a decimal comma, made here where the package locales is installed.
 if localedef -i de_DE -f UTF-8 "$work/de_DE.UTF-8" >/dev/null 2>&1; then

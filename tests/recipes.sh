@@ -3,6 +3,8 @@
 # is built with all of them at once; the commands after `$` are run there, and the lines below a command must be found in
 # what it says, in this order. A headline that says "N files" is held to it, documents, tests and scenes not counted.
 #
+# The copy is built file by file, so that a missing include is found, and what its object files tell is looked at (objects.sh).
+#
 # A fenced block with a file behind its language belongs to that file: a new one, or with the language diff a change of one
 # that is there, whose lines stand in it as they are.
 set -uo pipefail
@@ -75,6 +77,9 @@ count
 cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-g0 -DBUILD_TESTING=OFF >log 2>&1 &&
   cmake --build build --target diptych >log 2>&1 || { tail -n 40 log; exit 1; }
 PATH=$work/build:$PATH
+# This build has an object file of each source.
+checks=$((checks + 1))
+find build -name '*.o' ! -path '*diptych_main*' -exec "$1/tests/objects.sh" {} + || wrong "the object files"
 
 # --- what its commands say ---
 ask() { # ask COMMAND LINES: each line of LINES is found in what the command says, after the one before

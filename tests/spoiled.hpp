@@ -16,15 +16,15 @@ namespace diptych::tests {
 template <class Solution>
 class Spoiled final : public analytic::ExactSolution {
  public:
-  using At = std::function<double(analytic::Quantity, double, double)>;
+  using At = std::function<double(analytic::BarQuantity, double, double)>;
   Spoiled(Solution solution, At at) : solution_(std::move(solution)), at_(std::move(at)) {}
   std::string name() const override { return "spoiled"; }
   double residual(double) const override { return std::nan(""); }
-  double at(analytic::Quantity quantity, double x, double t) const override { return at_(quantity, x, t); }
+  double at(analytic::BarQuantity quantity, double x, double t) const override { return at_(quantity, x, t); }
   std::vector<analytic::Front> fronts(double t) const override {
     return spoil_fronts ? spoil_fronts(solution_.fronts(t)) : solution_.fronts(t);
   }
-  double scale(analytic::Quantity quantity) const override { return solution_.scale(quantity); }
+  double scale(analytic::BarQuantity quantity) const override { return solution_.scale(quantity); }
 
   std::function<std::vector<analytic::Front>(std::vector<analytic::Front>)> spoil_fronts;
 

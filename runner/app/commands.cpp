@@ -79,8 +79,8 @@ class Failed {
   std::vector<std::vector<std::optional<reports::Gate>>> gates_;
 };
 
-std::vector<reports::Case> measure(const std::vector<Case>& cases, const Options& options, Purpose purpose,
-                                   const std::atomic<bool>& cancelled) {
+std::vector<reports::Case> measure_cases(const std::vector<Case>& cases, const Options& options, Purpose purpose,
+                                         const std::atomic<bool>& cancelled) {
   const bool judge_only = purpose == Purpose::judge;
   Running running{threads_of(options), &cancelled, options.books, options.fields, judge_only};
   running.progress = progress();
@@ -279,7 +279,7 @@ int run_command(const Options& options, const std::atomic<bool>& cancelled) {
   auto cases = select_cases(options.selectors);
   if (!options.only.empty()) keep_runs(cases, options.only);
   prepare(options.out);
-  auto results = measure(cases, options, Purpose::show, cancelled);
+  auto results = measure_cases(cases, options, Purpose::show, cancelled);
   for (auto& result : results) name_after_case(result);  // two cases may call their figures the same
   for (const auto& result : results) {
     fmt::print("{}\n", reports::text_table(result));
@@ -298,7 +298,7 @@ int run_command(const Options& options, const std::atomic<bool>& cancelled) {
 int gate_command(const Options& options, const std::atomic<bool>& cancelled) {
   auto cases = select_cases(options.selectors);
   const auto left_out = options.quick ? leave_out_slow(cases) : std::vector<std::string>{};
-  const auto results = measure(cases, options, Purpose::judge, cancelled);
+  const auto results = measure_cases(cases, options, Purpose::judge, cancelled);
   for (const auto& result : results) {
     for (const auto& gate : result.gates) print_gate(gate);
   }
@@ -312,7 +312,7 @@ int gate_command(const Options& options, const std::atomic<bool>& cancelled) {
 
 int explain_command(const Options& options, const std::atomic<bool>& cancelled) {
   const auto cases = select_cases(options.selectors);
-  const auto results = measure(cases, options, Purpose::judge, cancelled);
+  const auto results = measure_cases(cases, options, Purpose::judge, cancelled);
   for (std::size_t i = 0; i < cases.size(); ++i) {
     for (const auto& gate : results[i].gates) fmt::print("{}\n", explanation(cases[i], gate));
   }
@@ -367,7 +367,7 @@ int paper_command(const Options& options, const std::atomic<bool>& cancelled) {
   });
   const auto out = options.out / "paper";
   prepare(out);
-  const auto results = measure(cases, options, Purpose::show, cancelled);
+  const auto results = measure_cases(cases, options, Purpose::show, cancelled);
   const bool stopped = any_cancelled(results);
   for (const auto& result : results) write_tables(result, out / "tables");
   const int undrawn = draw_figures(results, out / "figures", wanted);

@@ -25,7 +25,7 @@ std::size_t columns(const NodalMap& m) { return static_cast<std::size_t>(m.nx) +
 std::size_t rows(const NodalMap& m) { return static_cast<std::size_t>(m.ny) + 1; }
 double at(const NodalMap& m, std::size_t i, std::size_t j) { return m.value[j * columns(m) + i]; }
 
-void check(const NodalMap& m) {
+void check_map(const NodalMap& m) {
   if (m.nx < 1 || m.ny < 1 || !(m.hx > 0) || !(m.hy > 0) || m.value.size() != columns(m) * rows(m))
     throw std::invalid_argument(
         "nodal map: needs at least one cell each way, cells of positive size and one value a node");
@@ -174,7 +174,7 @@ NodalMap map_of(const reports::PlateFields& f, const std::string& field) {
 }
 
 std::vector<Polyline> contour(const NodalMap& map, double level) {
-  check(map);
+  check_map(map);
   const auto finite = [](double v) { return std::isfinite(v); };
   if (!finite(level) || !std::all_of(map.value.begin(), map.value.end(), finite)) return {};
   const Edges edges{map, level};
@@ -216,7 +216,7 @@ std::vector<Polyline> contour(const NodalMap& map, double level) {
 }
 
 double area_above(const NodalMap& map, double level) {
-  check(map);
+  check_map(map);
   double cells = 0;
   for (std::size_t j = 0; j + 1 < rows(map); ++j) {
     for (std::size_t i = 0; i + 1 < columns(map); ++i) {
@@ -230,7 +230,7 @@ double area_above(const NodalMap& map, double level) {
 }
 
 double integral(const NodalMap& map) {
-  check(map);
+  check_map(map);
   double cells = 0;
   for (std::size_t j = 0; j < rows(map); ++j) {
     for (std::size_t i = 0; i < columns(map); ++i) {
@@ -242,7 +242,7 @@ double integral(const NodalMap& map) {
 }
 
 double radius_along(const NodalMap& map, double level, double angle_degrees) {
-  check(map);
+  check_map(map);
   if (!(angle_degrees >= 0 && angle_degrees <= 90) || std::isnan(level)) return nan_value;
   const double angle = angle_degrees * std::numbers::pi / 180;
   // In cells.
@@ -289,8 +289,8 @@ double mean_distance(const std::vector<Polyline>& a, const std::vector<Polyline>
 }
 
 NodalMap difference(const NodalMap& a, const NodalMap& b) {
-  check(a);
-  check(b);
+  check_map(a);
+  check_map(b);
   if (a.nx != b.nx || a.ny != b.ny || a.hx != b.hx || a.hy != b.hy)
     throw std::invalid_argument("nodal maps to be subtracted must have the same grid");
   NodalMap result = a;

@@ -41,7 +41,7 @@ void for_each_piece(const Span& bar, std::vector<double> marks, const std::vecto
 
 }  // namespace
 
-Norms error_norms(const Field& field, const analytic::ExactSolution& exact, analytic::Quantity quantity,
+Norms error_norms(const Field& field, const analytic::ExactSolution& exact, analytic::BarQuantity quantity,
                   const std::vector<Span>& bars) {
   constexpr std::size_t points = 4;
   const std::unique_ptr<gsl_integration_glfixed_table, void (*)(gsl_integration_glfixed_table*)> rule(
@@ -75,7 +75,7 @@ Norms error_norms(const Field& field, const analytic::ExactSolution& exact, anal
   return norms;
 }
 
-double mean_between_fronts(const analytic::ExactSolution& exact, analytic::Quantity quantity, const Span& bar,
+double mean_between_fronts(const analytic::ExactSolution& exact, analytic::BarQuantity quantity, const Span& bar,
                            double t) {
   double sum = 0, covered = 0;
   for_each_piece(bar, {}, exact.fronts(t), [&](double begin, double end) {

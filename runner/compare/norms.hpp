@@ -18,12 +18,12 @@ struct Norms {
 /// The field is taken as it is (constant over its intervals, or linear between its points) and never projected. Each
 /// interval between edges, points and exact fronts is integrated by itself with four Gauss points, so a front inside a
 /// cell counts with its exact position; L∞ is over the Gauss points. NaN anywhere makes all three NaN.
-Norms error_norms(const Field&, const analytic::ExactSolution&, analytic::Quantity, const std::vector<Span>& bars);
+Norms error_norms(const Field&, const analytic::ExactSolution&, analytic::BarQuantity, const std::vector<Span>& bars);
 
 /// The value at x of a field of one bar.
 double value_at(const Field&, double x);
 
 /// Mean of a solution that is constant between its fronts.
-double mean_between_fronts(const analytic::ExactSolution&, analytic::Quantity, const Span& bar, double t);
+double mean_between_fronts(const analytic::ExactSolution&, analytic::BarQuantity, const Span& bar, double t);
 
 }  // namespace diptych::runner

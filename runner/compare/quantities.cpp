@@ -19,7 +19,7 @@ using Needed = std::optional<Lack>;
 
 Needed without(bool there, const std::string& what) { return there ? Needed{} : Lack{" without " + what, "with it"}; }
 
-std::string field_of(const std::string& name) { return name.substr(0, name.find('.')); }
+std::string field_in(const std::string& name) { return name.substr(0, name.find('.')); }
 
 /// A norm of an error needs something exact to compare with.
 Needed exact_bars(const std::string& name, const Case& c) {
@@ -27,8 +27,8 @@ Needed exact_bars(const std::string& name, const Case& c) {
   if (exact.solution == "none")
     return Lack{" in a case without an exact solution",
                 joined(quantity_names(c, {Sort::invariant})) + " (kind invariant), or give [exact]"};
-  if (exact.solution != "expressions" || !contains(fields, field_of(name))) return {};
-  const std::string field = field_of(name);
+  if (exact.solution != "expressions" || !contains(fields, field_in(name))) return {};
+  const std::string field = field_in(name);
   const std::string& formula = field == "stress"     ? exact.stress
                                : field == "velocity" ? exact.velocity
                                                      : exact.displacement;
@@ -38,7 +38,7 @@ Needed exact_bars(const std::string& name, const Case& c) {
 
 Needed exact_plate(const std::string& name, const Case& c) {
   const PlateExact& e = c.plate->exact;
-  const std::string field = field_of(name);
+  const std::string field = field_in(name);
   const bool solid = c.plate->solid.has_value();
   const bool given = e.solution.empty()            ? true
                      : e.solution == "none"        ? false
@@ -132,7 +132,7 @@ double momentum(const LedgerSums& sums, double mass) { return part(sums.momentum
 
 // ---- the table ------------------------------------------------------------------------------------------------------
 
-std::vector<Quantity> table() {
+std::vector<Quantity> rows_of_table() {
   std::vector<Quantity> rows;
   const auto norms = [&](const char* field, Scenes scenes) {
     for (const char* norm : {".L1", ".L2", ".Linf"})
@@ -223,7 +223,7 @@ Names names_in(const Quantity& row, const Case& c) {
 }  // namespace
 
 const std::vector<Quantity>& quantities() {
-  static const std::vector<Quantity> rows = table();
+  static const std::vector<Quantity> rows = rows_of_table();
   return rows;
 }
 

@@ -19,7 +19,7 @@ constexpr double least_order = 0.05, largest_order = 10;
 
 // --- Sprague & Geers ---
 
-void check(const History& h) {
+void check_history(const History& h) {
   const bool ascends =
       std::adjacent_find(h.time.begin(), h.time.end(), [](double a, double b) { return !(a < b); }) == h.time.end();
   if (h.time.size() < 2 || h.value.size() != h.time.size() || !ascends)
@@ -27,7 +27,7 @@ void check(const History& h) {
 }
 
 /// Within the samples.
-double value_at(const History& h, double time) {
+double history_value(const History& h, double time) {
   const auto above = std::upper_bound(h.time.begin() + 1, h.time.end() - 1, time);
   const auto i = static_cast<std::size_t>(above - h.time.begin());
   const double part = (time - h.time[i - 1]) / (h.time[i] - h.time[i - 1]);
@@ -147,8 +147,8 @@ Fit either_weight(const Levels& levels, ErrorModel model) {
 }  // namespace
 
 SpragueGeers sprague_geers(const History& history, const History& reference) {
-  check(history);
-  check(reference);
+  check_history(history);
+  check_history(reference);
   const double begin = std::max(history.time.front(), reference.time.front());
   const double end = std::min(history.time.back(), reference.time.back());
   if (!(begin < end)) throw std::invalid_argument("histories: share no time");
@@ -162,8 +162,8 @@ SpragueGeers sprague_geers(const History& history, const History& reference) {
   time.erase(std::unique(time.begin(), time.end()), time.end());
   std::vector<double> f, g;
   for (const double t : time) {
-    f.push_back(value_at(history, t));
-    g.push_back(value_at(reference, t));
+    f.push_back(history_value(history, t));
+    g.push_back(history_value(reference, t));
   }
   const double size_f = norm(time, f), size_g = norm(time, g);
   if (!(size_f > 0) || !(size_g > 0)) return {nan_value, nan_value, nan_value};

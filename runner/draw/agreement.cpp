@@ -23,7 +23,7 @@ std::pair<std::string, std::string> quantity_words(const Case& c, const reports:
   return {gate.quantity, ""};
 }
 
-void add(const Case& c, const FigureSpec& spec, reports::Case& result) {
+void draw_agreement(const Case& c, const FigureSpec& spec, reports::Case& result) {
   reports::Page page;
   page.title = title_of(c, spec);
   page.intro = {
@@ -72,11 +72,11 @@ void add(const Case& c, const FigureSpec& spec, reports::Case& result) {
 }  // namespace
 
 FigureKind agreement_kind() {
-  return {.name = "agreement",
+  return {.id = "agreement",
           .scenes = FigureKind::Scenes::plates,
           .keys = {"cells"},
           .draws = FigureKind::Draws::what_there_is,
-          .add = add};
+          .add = draw_agreement};
 }
 
 }  // namespace diptych::runner

@@ -17,13 +17,13 @@ struct Choices {
   std::vector<double> levels;  ///< radius and area in the table are those of the first
 };
 
-void read(Table& t, const Case&, FigureSpec& figure) {
+void read_choices(Table& t, const Case&, FigureSpec& figure) {
   figure.options = Choices{t.get("field", one_of({"crack-density", "damage"}), "crack-density"),
                            t.need("levels", set_of(positive()))};
   figure.recorded.energy = true;  // the table has the energy that comes back
 }
 
-void add(const Case& c, const FigureSpec& spec, reports::Case& result) {
+void draw_choices(const Case& c, const FigureSpec& spec, reports::Case& result) {
   const auto& [field, levels] = options_of<Choices>(spec);
   const std::vector<reports::Run>& runs = result.runs;
   const double time = (spec.times.empty() ? c.times : spec.times).back(), level = levels.front();
@@ -90,11 +90,11 @@ void add(const Case& c, const FigureSpec& spec, reports::Case& result) {
 }  // namespace
 
 FigureKind choices_kind() {
-  return {.name = "choices",
+  return {.id = "choices",
           .scenes = FigureKind::Scenes::plates,
           .keys = {"field", "levels", "times", "cells"},
-          .read = read,
-          .add = add};
+          .read = read_choices,
+          .add = draw_choices};
 }
 
 }  // namespace diptych::runner

@@ -20,12 +20,12 @@ struct Contours {
   std::vector<double> levels;
 };
 
-void read(Table& t, const Case&, FigureSpec& figure) {
+void read_contours(Table& t, const Case&, FigureSpec& figure) {
   figure.options = Contours{t.get("field", one_of({"crack-density", "damage"}), "crack-density"),
                             t.need("levels", set_of(positive()))};
 }
 
-void add(const Case& c, const FigureSpec& spec, reports::Case& result) {
+void draw_contours(const Case& c, const FigureSpec& spec, reports::Case& result) {
   const auto& [field, levels] = options_of<Contours>(spec);
   const std::vector<reports::Run>& runs = result.runs;
   reports::PlateFigure figure = blank_plate(c, spec);
@@ -81,11 +81,11 @@ void add(const Case& c, const FigureSpec& spec, reports::Case& result) {
 }  // namespace
 
 FigureKind contours_kind() {
-  return {.name = "contours",
+  return {.id = "contours",
           .scenes = FigureKind::Scenes::plates,
           .keys = {"field", "levels", "times", "range", "cells"},
-          .read = read,
-          .add = add};
+          .read = read_contours,
+          .add = draw_contours};
 }
 
 }  // namespace diptych::runner

@@ -19,7 +19,7 @@ struct Convergence {
   std::string variant;
 };
 
-void read(Table& t, const Case& c, FigureSpec& figure) {
+void read_convergence(Table& t, const Case& c, FigureSpec& figure) {
   Names probes;
   for (const PlateProbe& probe : c.plate_probes) probes.push_back(probe.id);
   figure.options = Convergence{t.need("probes", set_of(one_of(probes))), t.get("variant", one_of(variants_of(c)))};
@@ -53,7 +53,7 @@ std::string roundness(const Case& c, const FigureSpec& spec, const std::vector<r
   return text;
 }
 
-void add(const Case& c, const FigureSpec& spec, reports::Case& result) {
+void draw_convergence(const Case& c, const FigureSpec& spec, reports::Case& result) {
   const auto& [probes, variant] = options_of<Convergence>(spec);
   const std::vector<reports::Run>& runs = result.runs;
   const double time = spec.times.front();
@@ -117,12 +117,12 @@ void add(const Case& c, const FigureSpec& spec, reports::Case& result) {
 }  // namespace
 
 FigureKind convergence_kind() {
-  return {.name = "convergence",
+  return {.id = "convergence",
           .scenes = FigureKind::Scenes::plates,
           .keys = {"probes", "variant", "times"},
           .draws = FigureKind::Draws::what_there_is,
-          .read = read,
-          .add = add};
+          .read = read_convergence,
+          .add = draw_convergence};
 }
 
 }  // namespace diptych::runner

@@ -30,7 +30,7 @@ struct Failure {
   std::vector<Comparison> sections;
 };
 
-void read(Table& t, const Case& c, FigureSpec& figure) {
+void read_failure(Table& t, const Case& c, FigureSpec& figure) {
   Failure options;
   options.intro = t.get("intro", list_of(prose(c)));
   options.model = t.get("model", list_of(prose(c)));
@@ -53,7 +53,7 @@ void read(Table& t, const Case& c, FigureSpec& figure) {
   figure.options = options;
 }
 
-void check(const Place& figures, const Case& c, const FigureSpec& page) {
+void check_failure(const Place& figures, const Case& c, const FigureSpec& page) {
   Names drawn;
   for (const FigureSpec& figure : c.figures)
     if (figure.kind == "gauges") drawn.push_back(figure.id);
@@ -86,7 +86,7 @@ std::vector<std::string> results_of(const Case& c, const reports::Run* run) {
   return values;
 }
 
-void add(const Case& c, const FigureSpec& spec, reports::Case& result) {
+void draw_failure(const Case& c, const FigureSpec& spec, reports::Case& result) {
   const auto& options = options_of<Failure>(spec);
   const PlateSpec plate = plate_of(c, "", spec.cells);
   reports::Page page;
@@ -138,13 +138,13 @@ void add(const Case& c, const FigureSpec& spec, reports::Case& result) {
 }  // namespace
 
 FigureKind failure_kind() {
-  return {.name = "failure",
+  return {.id = "failure",
           .scenes = FigureKind::Scenes::plates,
           .keys = {"intro", "model", "statements", "sections", "pictures", "cells"},
           .draws = FigureKind::Draws::what_there_is,
-          .read = read,
-          .check = check,
-          .add = add};
+          .read = read_failure,
+          .check = check_failure,
+          .add = draw_failure};
 }
 
 }  // namespace diptych::runner

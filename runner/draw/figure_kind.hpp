@@ -17,7 +17,7 @@ struct FigureKind {
   /// of many.
   enum class Draws { its_runs, what_there_is };
 
-  std::string name;
+  std::string id;
   Scenes scenes = Scenes::bars;
   Names keys;  ///< those that not all kinds take: its own, and of the common ones "cells", "times" and "range"
   Draws draws = Draws::its_runs;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <map>
-#include <stdexcept>
 #include <type_traits>
 #include <utility>
 
@@ -15,19 +14,30 @@
 namespace diptych::runner {
 
 // Each stands in a file of its name.
-FigureKind profiles_kind(), motion_kind();
+FigureKind profiles_kind(), motion_kind();  // of bars
 FigureKind contours_kind(), problem_kind(), history_kind(), convergence_kind(), rupture_kind(), choices_kind(),
-    agreement_kind(), gauges_kind(), failure_kind();
+    agreement_kind(), gauges_kind(), failure_kind();  // of plates
+
+Registry<FigureKind>& figure_kinds() {
+  static Registry<FigureKind> rows(
+      {
+          profiles_kind(),
+          motion_kind(),
+          contours_kind(),
+          problem_kind(),
+          history_kind(),
+          convergence_kind(),
+          rupture_kind(),
+          choices_kind(),
+          agreement_kind(),
+          gauges_kind(),
+          failure_kind(),
+      },
+      "a kind of figure");
+  return rows;
+}
 
 namespace {
-
-std::vector<FigureKind>& table() {
-  static std::vector<FigureKind> all{profiles_kind(), motion_kind(),  // of bars
-                                     contours_kind(), problem_kind(),   history_kind(), convergence_kind(),
-                                     rupture_kind(),  // of plates
-                                     choices_kind(),  agreement_kind(), gauges_kind(),  failure_kind()};
-  return all;
-}
 
 std::vector<const FigureKind*> kinds_of(const Case& c) {
   const auto scenes = c.plate ? FigureKind::Scenes::plates : FigureKind::Scenes::bars;
@@ -37,17 +47,11 @@ std::vector<const FigureKind*> kinds_of(const Case& c) {
   return kinds;
 }
 
-const FigureKind* kind_of(const FigureSpec& figure) {
-  for (const FigureKind& kind : figure_kinds())
-    if (kind.name == figure.kind) return &kind;
-  return nullptr;
-}
-
 /// Notes each key that belongs to other kinds of figures of this scene.
 void refuse_keys_of_other_kinds(Table& t, const FigureSpec& figure, const Case& c) {
   std::map<std::string, Names> owners;
   for (const FigureKind* kind : kinds_of(c))
-    for (const std::string& key : kind->keys) owners[key].push_back(kind->name);
+    for (const std::string& key : kind->keys) owners[key].push_back(kind->id);
   for (const auto& [key, kinds] : owners) t.applies(key, "kind", figure.kind, kinds);
 }
 
@@ -133,19 +137,6 @@ void check_runs(Table& t, const FigureSpec& figure, const Case& c) {
 
 }  // namespace
 
-const std::vector<FigureKind>& figure_kinds() { return table(); }
-
-AddedFigureKind::AddedFigureKind(FigureKind added) : name_(added.name) {
-  const auto same = [&](const FigureKind& kind) { return kind.name == name_; };
-  if (std::any_of(table().begin(), table().end(), same))
-    throw std::invalid_argument("a kind of figure is called '" + name_ + "' already");
-  table().push_back(std::move(added));
-}
-
-AddedFigureKind::~AddedFigureKind() {
-  std::erase_if(table(), [&](const FigureKind& kind) { return kind.name == name_; });
-}
-
 FigureSpec read_figure(Table& t, const Case& c) {
   FigureSpec figure;
   figure.id = t.need("id", id());
@@ -153,10 +144,10 @@ FigureSpec read_figure(Table& t, const Case& c) {
   figure.title = t.get("title", text());
   figure.choices = t.get("choices", text());
   Names names;
-  for (const FigureKind* kind : kinds_of(c)) names.push_back(kind->name);
+  for (const FigureKind* kind : kinds_of(c)) names.push_back(kind->id);
   figure.kind = t.get("kind", one_of(names), names.front());
   refuse_keys_of_other_kinds(t, figure, c);
-  const FigureKind& kind = *kind_of(figure);
+  const FigureKind& kind = *figure_kinds().find(figure.kind);
   const auto takes = [&](const char* key) { return contains(kind.keys, std::string(key)); };
   if (takes("times")) figure.times = read_times(t, c);
   if (takes("range")) figure.range = t.maybe("range", interval());
@@ -168,14 +159,14 @@ FigureSpec read_figure(Table& t, const Case& c) {
 
 void check_figures(const Place& figures, const Case& c) {
   for (const FigureSpec& figure : c.figures)
-    if (const FigureKind* kind = kind_of(figure); kind && kind->check) kind->check(figures, c, figure);
+    if (const FigureKind* kind = figure_kinds().find(figure.kind); kind && kind->check) kind->check(figures, c, figure);
 }
 
 void add_figures(const Case& whole, reports::Case& result) {
   for (const FigureSpec& spec : whole.figures) {
     Case c = whole;
     for (const auto& [name, value] : spec.parameters) c.parameters[name] = value;
-    kind_of(spec)->add(c, spec, result);
+    figure_kinds().find(spec.kind)->add(c, spec, result);
   }
   for (auto& figure : result.figures) figure.looks = looks();
   for (auto& figure : result.plate_figures) figure.looks = looks();

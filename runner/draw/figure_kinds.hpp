@@ -6,6 +6,7 @@
 
 #include "reports/results.hpp"
 #include "runner/input/case.hpp"
+#include "runner/registry.hpp"
 
 namespace diptych::runner {
 
@@ -14,21 +15,8 @@ struct Place;
 struct FigureKind;
 
 /// Every kind of figure there is; of a scene the first is the usual one.
-const std::vector<FigureKind>& figure_kinds();
-
-/// One kind more for as long as it lives: how a test adds one. Not to be made or destroyed while cases are read or
-/// drawn.
-class AddedFigureKind {
- public:
-  /// Throws std::invalid_argument where a kind has this name already.
-  explicit AddedFigureKind(FigureKind);
-  ~AddedFigureKind();
-  AddedFigureKind(const AddedFigureKind&) = delete;
-  AddedFigureKind& operator=(const AddedFigureKind&) = delete;
-
- private:
-  std::string name_;
-};
+Registry<FigureKind>& figure_kinds();
+using AddedFigureKind = Added<FigureKind, figure_kinds>;
 
 /// An entry of [[figure]].
 FigureSpec read_figure(Table&, const Case&);

@@ -30,7 +30,7 @@ struct Gauges {
   std::optional<std::array<double, 2>> time_range;  ///< [s]
 };
 
-void read(Table& t, const Case& c, FigureSpec& figure) {
+void read_gauges(Table& t, const Case& c, FigureSpec& figure) {
   Gauges options;
   Names gauges;
   for (const GaugeSpec& gauge : c.gauges) gauges.push_back(gauge.id);
@@ -77,7 +77,7 @@ reports::Curve elastic_curve(const ImpactTheory& theory, double stress, double e
   return {{0, theory.arrival * 1e6, theory.arrival * 1e6, until * 1e6}, {0, 0, stress / 1e9, stress / 1e9}};
 }
 
-void add(const Case& c, const FigureSpec& spec, reports::Case& result) {
+void draw_gauges(const Case& c, const FigureSpec& spec, reports::Case& result) {
   const auto& options = options_of<Gauges>(spec);
   const std::vector<reports::Run>& runs = result.runs;
   reports::Figure figure;
@@ -149,12 +149,12 @@ void add(const Case& c, const FigureSpec& spec, reports::Case& result) {
 }  // namespace
 
 FigureKind gauges_kind() {
-  return {.name = "gauges",
+  return {.id = "gauges",
           .scenes = FigureKind::Scenes::plates,
           .keys = {"gauges", "variants", "components", "time_range", "bands", "range", "cells"},
           .draws = FigureKind::Draws::what_there_is,
-          .read = read,
-          .add = add};
+          .read = read_gauges,
+          .add = draw_gauges};
 }
 
 }  // namespace diptych::runner

@@ -7,7 +7,7 @@
 namespace diptych::runner {
 namespace {
 
-void add(const Case& c, const FigureSpec& spec, reports::Case& result) {
+void draw_history(const Case& c, const FigureSpec& spec, reports::Case& result) {
   reports::Figure figure;
   figure.id = spec.id;
   figure.title = title_of(c, spec);
@@ -42,7 +42,7 @@ void add(const Case& c, const FigureSpec& spec, reports::Case& result) {
 }  // namespace
 
 FigureKind history_kind() {
-  return {.name = "history", .scenes = FigureKind::Scenes::plates, .keys = {"cells"}, .add = add};
+  return {.id = "history", .scenes = FigureKind::Scenes::plates, .keys = {"cells"}, .add = draw_history};
 }
 
 }  // namespace diptych::runner

@@ -24,7 +24,7 @@ struct Motion {
   double magnify = 1;  ///< displacements are drawn so many times as large
 };
 
-void read(Table& t, const Case&, FigureSpec& figure) {
+void read_motion(Table& t, const Case&, FigureSpec& figure) {
   Motion options;
   options.magnify = t.get("magnify", positive(), options.magnify);
   t.maybe_table("zoom", [&](Table& z) { options.zoom = Zoom{z.need("x", interval()), z.need("t", interval())}; });
@@ -46,7 +46,7 @@ reports::Curve between(const reports::Curve& paths, double from, double to) {
   return part;
 }
 
-void add(const Case& c, const FigureSpec& spec, reports::Case& result) {
+void draw_motion(const Case& c, const FigureSpec& spec, reports::Case& result) {
   const auto& [zoom, scale] = options_of<Motion>(spec);
   const std::vector<reports::Run>& runs = result.runs;
   reports::Figure figure = bar_figure(c, spec, bar_notes(c, spec, true));
@@ -101,11 +101,11 @@ void add(const Case& c, const FigureSpec& spec, reports::Case& result) {
 }  // namespace
 
 FigureKind motion_kind() {
-  return {.name = "motion",
+  return {.id = "motion",
           .scenes = FigureKind::Scenes::bars,
           .keys = {"zoom", "magnify", "cells"},
-          .read = read,
-          .add = add};
+          .read = read_motion,
+          .add = draw_motion};
 }
 
 }  // namespace diptych::runner

@@ -22,7 +22,7 @@ std::string load_words(const SideLoad& load) {
   return text;
 }
 
-void add(const Case& c, const FigureSpec& spec, reports::Case& result) {
+void draw_problem(const Case& c, const FigureSpec& spec, reports::Case& result) {
   reports::ProblemFigure figure;
   figure.id = spec.id;
   figure.title = title_of(c, spec);
@@ -57,11 +57,11 @@ void add(const Case& c, const FigureSpec& spec, reports::Case& result) {
 }  // namespace
 
 FigureKind problem_kind() {
-  return {.name = "problem",
+  return {.id = "problem",
           .scenes = FigureKind::Scenes::plates,
           .keys = {"cells"},
           .draws = FigureKind::Draws::what_there_is,
-          .add = add};
+          .add = draw_problem};
 }
 
 }  // namespace diptych::runner

@@ -15,7 +15,7 @@ struct Profiles {
   std::vector<std::string> captions;  ///< one for each time: what to see
 };
 
-void read(Table& t, const Case& c, FigureSpec& figure) {
+void read_profiles(Table& t, const Case& c, FigureSpec& figure) {
   Profiles options;
   options.field = t.get("field", one_of(fields), options.field);
   options.captions = t.get("captions", list_of(text()));
@@ -35,7 +35,7 @@ std::string unit_of(const Case& c, const std::string& field) {
 
 std::string symbol_of(const std::string& field) { return field == "stress" ? "σ" : field == "velocity" ? "v" : "u"; }
 
-void add(const Case& c, const FigureSpec& spec, reports::Case& result) {
+void draw_profiles(const Case& c, const FigureSpec& spec, reports::Case& result) {
   const auto& [field, captions] = options_of<Profiles>(spec);
   const std::vector<reports::Run>& runs = result.runs;
   reports::Figure figure = bar_figure(c, spec, bar_notes(c, spec));
@@ -77,11 +77,11 @@ void add(const Case& c, const FigureSpec& spec, reports::Case& result) {
 }  // namespace
 
 FigureKind profiles_kind() {
-  return {.name = "profiles",
+  return {.id = "profiles",
           .scenes = FigureKind::Scenes::bars,
           .keys = {"field", "captions", "times", "range", "cells"},
-          .read = read,
-          .add = add};
+          .read = read_profiles,
+          .add = draw_profiles};
 }
 
 }  // namespace diptych::runner

@@ -19,7 +19,7 @@ struct Rupture {
   std::string variant;
 };
 
-void read(Table& t, const Case& c, FigureSpec& figure) {
+void read_rupture(Table& t, const Case& c, FigureSpec& figure) {
   Names swept, largest;
   for (const auto& entry : all_axes(c).parameters) swept.push_back(entry.first);
   for (const PlateProbe& probe : c.plate_probes)
@@ -30,7 +30,7 @@ void read(Table& t, const Case& c, FigureSpec& figure) {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-void add(const Case& c, const FigureSpec& spec, reports::Case& result) {
+void draw_rupture(const Case& c, const FigureSpec& spec, reports::Case& result) {
   const auto& [probe, variant] = options_of<Rupture>(spec);
   const std::vector<reports::Run>& runs = result.runs;
   const double time = (spec.times.empty() ? c.times : spec.times).back(), ruptured = 0.9;
@@ -111,12 +111,12 @@ void add(const Case& c, const FigureSpec& spec, reports::Case& result) {
 }  // namespace
 
 FigureKind rupture_kind() {
-  return {.name = "rupture",
+  return {.id = "rupture",
           .scenes = FigureKind::Scenes::plates,
           .keys = {"over", "probe", "variant", "times"},
           .draws = FigureKind::Draws::what_there_is,
-          .read = read,
-          .add = add};
+          .read = read_rupture,
+          .add = draw_rupture};
 }
 
 }  // namespace diptych::runner

@@ -21,7 +21,7 @@ std::string read_expression(Table& t, const std::string& key, const Names& varia
   return expression;
 }
 
-material::Material read_elastic(Table&, double E, double rho) { return material::Elastic{E, rho}; }
+material::Material read_elastic_bar(Table&, double E, double rho) { return material::Elastic{E, rho}; }
 
 material::Material read_hardening(Table& t, double E, double rho) {
   const double E_t = t.need("E_t", not_negative()), yield_stress = t.need("yield_stress", positive());
@@ -37,7 +37,7 @@ struct Model {
 };
 
 const std::vector<Model> models{
-    {material::Elastic::model, {}, read_elastic},
+    {material::Elastic::model, {}, read_elastic_bar},
     {material::Hardening::model, {"E_t", "yield_stress"}, read_hardening},
 };
 
@@ -126,7 +126,7 @@ void read_supports(Table& t, Case& c) {
   c.right = support("right");
 }
 
-Probe read_probe(Table& t, const Case& c) {
+Probe read_bar_probe(Table& t, const Case& c) {
   Probe probe;
   probe.id = t.need("id", id());
   probe.field = t.need("field", one_of(fields));
@@ -158,7 +158,7 @@ void read_sample(Table& t, Case& c, bool bars_are_read) {
       s.place("at").refuse(words(c.times), "times in ascending order, each once");
       c.times.clear();
     });
-  c.probes = read_each<Probe>(t, "probes", c, read_probe);
+  c.probes = read_each<Probe>(t, "probes", c, read_bar_probe);
   if (!bars_are_read || c.bars.size() == 1) return;
   std::size_t i = 0;
   t.each("probes", [&](Table& p) {

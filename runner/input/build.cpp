@@ -16,7 +16,7 @@
 namespace diptych::runner {
 namespace {
 
-using analytic::Quantity;
+using analytic::BarQuantity;
 
 Load make_load(const Case& c, const LoadSpec& spec, int cells) {
   Load load;
@@ -48,20 +48,20 @@ std::function<double(double)> mode_velocity(const Case& c) {
 class ExpressionSolution final : public analytic::ExactSolution {
  public:
   explicit ExpressionSolution(const Case& c) {
-    add(Quantity::stress, c.exact.stress, c);
-    add(Quantity::velocity, c.exact.velocity, c);
-    add(Quantity::displacement, c.exact.displacement, c);
+    add(BarQuantity::stress, c.exact.stress, c);
+    add(BarQuantity::velocity, c.exact.velocity, c);
+    add(BarQuantity::displacement, c.exact.displacement, c);
   }
   std::string name() const override { return "expressions"; }
-  double at(Quantity q, double x, double t) const override { return formulas_.at(q)(x, t); }
+  double at(BarQuantity q, double x, double t) const override { return formulas_.at(q)(x, t); }
   std::vector<analytic::Front> fronts(double) const override { return {}; }
-  double scale(Quantity q) const override { return scales_.count(q) ? scales_.at(q) : 1; }
-  bool gives(Quantity q) const override { return formulas_.count(q) > 0; }
+  double scale(BarQuantity q) const override { return scales_.count(q) ? scales_.at(q) : 1; }
+  bool gives(BarQuantity q) const override { return formulas_.count(q) > 0; }
   /// One's own expressions are taken at their word: nothing says what they solve.
   double residual(double) const override { return 0; }
 
  private:
-  void add(Quantity q, const std::string& formula, const Case& c) {
+  void add(BarQuantity q, const std::string& formula, const Case& c) {
     if (formula.empty()) return;
     const Expression& f = formulas_.emplace(q, Expression(formula, {"x", "t"}, expression_constants(c))).first->second;
     const double end = instant(c, 1, c.times.back()), length = begins_of(c, 1).back() + c.bars.back().length;
@@ -72,8 +72,8 @@ class ExpressionSolution final : public analytic::ExactSolution {
     scales_[q] = largest > 0 ? largest : 1;
   }
 
-  std::map<Quantity, Expression> formulas_;
-  std::map<Quantity, double> scales_;
+  std::map<BarQuantity, Expression> formulas_;
+  std::map<BarQuantity, double> scales_;
 };
 
 analytic::BarEnd bar_end(const Case& c, End end) {

@@ -64,9 +64,9 @@ class CloserBars final : public analytic::ExactSolution {
   CloserBars(std::unique_ptr<analytic::ExactSolution> solution, std::vector<double> begins, std::vector<double> shifts)
       : solution_(std::move(solution)), begins_(std::move(begins)), shifts_(std::move(shifts)) {}
   std::string name() const override { return solution_->name(); }
-  double at(analytic::Quantity q, double x, double t) const override { return solution_->at(q, x - shift_at(x), t); }
+  double at(analytic::BarQuantity q, double x, double t) const override { return solution_->at(q, x - shift_at(x), t); }
   std::vector<analytic::Front> fronts(double t) const override;
-  double scale(analytic::Quantity q) const override { return solution_->scale(q); }
+  double scale(analytic::BarQuantity q) const override { return solution_->scale(q); }
   double residual(double t_end) const override { return solution_->residual(t_end); }
   std::optional<std::vector<Contact>> contact_times() const override { return solution_->contact_times(); }
   std::optional<double> work_of_flow(double t) const override { return solution_->work_of_flow(t); }

@@ -22,12 +22,6 @@ bool is_name(const std::string& token) {
          std::all_of(token.begin(), token.end(), letter);
 }
 
-std::string joined(const std::vector<std::string>& names) {
-  std::string all;
-  for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
-  return all;
-}
-
 /// muParser assigns with '=' (its variables could then be overwritten while they are read) and compares with '=='.
 std::size_t assignment_in(const std::string& formula) {
   for (std::size_t i = 0; i < formula.size(); ++i) {
@@ -97,7 +91,7 @@ struct Expression::Impl {
   std::string names_in_words() const {
     std::vector<std::string> names = variables;
     for (const auto& constant : constants) names.push_back(constant.first);
-    return joined(names);
+    return listed(names);
   }
 
   std::string explained(const mu::ParserError& error) const {
@@ -118,7 +112,7 @@ struct Expression::Impl {
     known.insert(known.end(), functions.begin(), functions.end());
     const std::string near = nearest(token, known);
     return "unknown name " + in_quotes(token) + where + "; allowed: " + names_in_words() + " and the functions " +
-           joined(functions) + (near.empty() ? "" : "; did you mean " + in_quotes(near) + "?");
+           listed(functions) + (near.empty() ? "" : "; did you mean " + in_quotes(near) + "?");
   }
 
   std::string formula;

@@ -321,7 +321,7 @@ void read_variant(Table& t, Table& file, Case& c) {
   c.variants.push_back(variant);
 }
 
-PlateProbe read_plate_probe(Table& t, const Case& c) {
+PlateProbe read_probe_of_plate(Table& t, const Case& c) {
   PlateProbe probe;
   probe.id = t.need("id", id());
   Names reads{"concentration", "total"};
@@ -381,7 +381,7 @@ void read_plate_sample(Table& t, Case& c) {
     s.place("at").refuse(words(c.times), "times in ascending order, each once");
     c.times.clear();
   });
-  c.plate_probes = read_each<PlateProbe>(t, "probes", c, read_plate_probe);
+  c.plate_probes = read_each<PlateProbe>(t, "probes", c, read_probe_of_plate);
   c.gauges = read_each<GaugeSpec>(t, "gauges", c, read_gauge);
 }
 

@@ -33,7 +33,7 @@ Rule<double> below(double bound, const Rule<double>& rule, const std::string& al
 
 // ---- [material] ----
 
-PlateSolid read_elastic(Table&, const material::PlaneElastic& elastic, const Cone& compression) {
+PlateSolid read_elastic_plate(Table&, const material::PlaneElastic& elastic, const Cone& compression) {
   return solid::Elastic{elastic, compression};
 }
 
@@ -147,7 +147,7 @@ void read_failing_tables(Table& file, Case& c) {
 
 const std::vector<PlateModel>& plate_models() {
   static const std::vector<PlateModel> models{
-      {"elastic", solid::Elastic::feature, {}, read_elastic, read_no_tables},
+      {"elastic", solid::Elastic::feature, {}, read_elastic_plate, read_no_tables},
       {"tensile-damage",
        solid::Cracking::feature,
        {"K_IC", "k", "m", "beta", "residual_stiffness", "closure", "volumetric"},

@@ -28,10 +28,10 @@ using Sort = Quantity::Sort;
 
 // ---- the keys -------------------------------------------------------------------------------------------------------
 
-Names quantities_of(const Case& c) { return quantity_names(c, {Sort::probe, Sort::distance, Sort::history}); }
+Names quantities_of_agreement(const Case& c) { return quantity_names(c, {Sort::probe, Sort::distance, Sort::history}); }
 
 /// Two methods, otherwise alike, on the same four meshes or more.
-void check_runs(const Place& place, bool uncertain, const GateSpec& gate, const Case& c) {
+void check_runs_of_agreement(const Place& place, bool uncertain, const GateSpec& gate, const Case& c) {
   std::map<std::string, std::set<int>> meshes;
   std::set<std::string> otherwise;
   for (const Leaf& run : runs_of(gate, c)) {
@@ -62,7 +62,7 @@ void read_agreement(Table& t, const Case& c, GateSpec& gate) {
   agreement.shrinks = t.get("shrinks", flag(), true);
   if (t.applies("level", "quantity", gate.quantity, {"contour.distance"}))
     agreement.level = t.need("level", positive());
-  if (!c.axes.empty()) check_runs(t.place("where"), agreement.max.has_value(), gate, c);
+  if (!c.axes.empty()) check_runs_of_agreement(t.place("where"), agreement.max.has_value(), gate, c);
   gate.criterion = std::make_shared<AgreementCriterion>(agreement);
 }
 
@@ -221,7 +221,7 @@ GateKind agreement_gate() {
           .says = "two methods differ by no more than the numerical uncertainty of both explains",
           .scenes = GateKind::Scenes::plates,
           .keys = {{"times"}, {"max"}, {"judged"}, {"apart"}, {"shrinks"}, {"level"}},
-          .quantities = quantities_of,
+          .quantities = quantities_of_agreement,
           .read = read_agreement};
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 using Sort = Quantity::Sort;
 
-Names quantities_of(const Case& c) {
+Names quantities_of_constant(const Case& c) {
   if (c.plate) return quantity_names(c, {Sort::error_norm, Sort::gauge_reading});
   return quantity_names(c, {Sort::error_norm, Sort::probe, Sort::outcome});
 }
@@ -33,7 +33,7 @@ GateKind constant_gate() {
   return {.id = "constant",
           .says = "what is measured over what theory predicts of it lies in a band",
           .keys = {{"times"}, {"predict"}, {"ratio"}},
-          .quantities = quantities_of,
+          .quantities = quantities_of_constant,
           .read = read_constant};
 }
 

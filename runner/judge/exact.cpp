@@ -10,7 +10,7 @@ namespace {
 
 using Sort = Quantity::Sort;
 
-Names quantities_of(const Case& c) {
+Names quantities_of_exact(const Case& c) {
   return quantity_names(c, {Sort::error_norm, Sort::probe, Sort::outcome, Sort::gauge_reading, Sort::failure});
 }
 
@@ -30,7 +30,7 @@ GateKind exact_gate() {
   return {.id = "exact",
           .says = "the error against the exact solution, or a number less what it must be, is at most so large",
           .keys = {{"times"}, {"max"}, {"expect", {"probe.", "gauge.", "failure."}}},
-          .quantities = quantities_of,
+          .quantities = quantities_of_exact,
           .read = read_exact};
 }
 

@@ -9,6 +9,7 @@
 #include "runner/input/case.hpp"
 #include "runner/input/leaf.hpp"
 #include "runner/input/messages.hpp"
+#include "runner/registry.hpp"
 
 namespace diptych::runner {
 
@@ -66,16 +67,7 @@ std::vector<const GateKind*> gate_kinds(const Case&);
 /// The kind of this id. Throws std::invalid_argument where there is none.
 const GateKind& gate_kind(const std::string& id);
 
-/// One row more for as long as it lives, for tests. Not to be made or destroyed while cases are read or judged.
-class AddedGateKind {
- public:
-  explicit AddedGateKind(GateKind);
-  ~AddedGateKind();
-  AddedGateKind(const AddedGateKind&) = delete;
-  AddedGateKind& operator=(const AddedGateKind&) = delete;
-
- private:
-  std::string id_;
-};
+Registry<GateKind>& all_gate_kinds();
+using AddedGateKind = Added<GateKind, all_gate_kinds>;
 
 }  // namespace diptych::runner

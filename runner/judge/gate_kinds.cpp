@@ -1,7 +1,5 @@
 #include <algorithm>
-#include <deque>
 #include <stdexcept>
-#include <utility>
 
 #include "runner/judge/gate_kind.hpp"
 
@@ -10,20 +8,20 @@ namespace diptych::runner {
 // Each stands in a file of its name.
 GateKind exact_gate(), constant_gate(), order_gate(), invariant_gate(), limit_gate(), agreement_gate(), settling_gate();
 
-namespace {
-
-/// A deque, so that a row stays where it is when another one is added.
-std::deque<GateKind>& table() {
-  static std::deque<GateKind> rows{exact_gate(), constant_gate(),  order_gate(),   invariant_gate(),
-                                   limit_gate(), agreement_gate(), settling_gate()};
+Registry<GateKind>& all_gate_kinds() {
+  static Registry<GateKind> rows(
+      {
+          exact_gate(),
+          constant_gate(),
+          order_gate(),
+          invariant_gate(),
+          limit_gate(),
+          agreement_gate(),
+          settling_gate(),
+      },
+      "a kind of gate");
   return rows;
 }
-
-auto row(const std::string& id) {
-  return std::find_if(table().begin(), table().end(), [&](const GateKind& kind) { return kind.id == id; });
-}
-
-}  // namespace
 
 bool GateKind::takes(const Case& c) const { return scenes == Scenes::all || c.plate.has_value(); }
 
@@ -37,22 +35,14 @@ bool GateKind::has(const std::string& key, const std::string& quantity) const {
 
 std::vector<const GateKind*> gate_kinds(const Case& c) {
   std::vector<const GateKind*> kinds;
-  for (const GateKind& kind : table())
+  for (const GateKind& kind : all_gate_kinds())
     if (kind.takes(c)) kinds.push_back(&kind);
   return kinds;
 }
 
 const GateKind& gate_kind(const std::string& id) {
-  const auto found = row(id);
-  if (found == table().end()) throw std::invalid_argument("no kind of gate is called '" + id + "'");
-  return *found;
+  if (const GateKind* found = all_gate_kinds().find(id)) return *found;
+  throw std::invalid_argument("no kind of gate is called '" + id + "'");
 }
-
-AddedGateKind::AddedGateKind(GateKind added) : id_(added.id) {
-  if (row(id_) != table().end()) throw std::invalid_argument("there is a kind of gate '" + id_ + "' already");
-  table().push_back(std::move(added));
-}
-
-AddedGateKind::~AddedGateKind() { table().erase(row(id_)); }
 
 }  // namespace diptych::runner

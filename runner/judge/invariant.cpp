@@ -8,7 +8,7 @@
 namespace diptych::runner {
 namespace {
 
-Names quantities_of(const Case& c) { return quantity_names(c, {Quantity::Sort::invariant}); }
+Names quantities_of_invariant(const Case& c) { return quantity_names(c, {Quantity::Sort::invariant}); }
 
 void read_invariant(Table& t, const Case&, GateSpec& gate) {
   BoundCriterion bound;
@@ -22,7 +22,7 @@ GateKind invariant_gate() {
   return {.id = "invariant",
           .says = "what is nothing where all is well is at most so large",
           .keys = {{"times"}, {"max"}},
-          .quantities = quantities_of,
+          .quantities = quantities_of_invariant,
           .read = read_invariant};
 }
 

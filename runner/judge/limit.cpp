@@ -14,7 +14,7 @@
 namespace diptych::runner {
 namespace {
 
-Names quantities_of(const Case& c) { return quantity_names(c, {Quantity::Sort::limit}); }
+Names quantities_of_limit(const Case& c) { return quantity_names(c, {Quantity::Sort::limit}); }
 
 void read_limit(Table& t, const Case& c, GateSpec& gate) {
   const auto of = [&](const char* key, const char* quantity) {
@@ -66,7 +66,7 @@ GateKind limit_gate() {
   return {.id = "limit",
           .says = "runs stay bounded up to the Courant number that theory gives, and blow up above it",
           .keys = {{"predict"}, {"ratio"}, {"outcome"}, {"steps"}},
-          .quantities = quantities_of,
+          .quantities = quantities_of_limit,
           .read = read_limit,
           .check_all = check_limits};
 }

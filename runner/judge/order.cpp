@@ -26,7 +26,7 @@ using Sort = Quantity::Sort;
 // An error above this part of the field's scale has not begun to converge.
 constexpr double saturated = 0.5;
 
-Names quantities_of(const Case& c) { return quantity_names(c, {Sort::error_norm, Sort::outcome_error}); }
+Names quantities_of_order(const Case& c) { return quantity_names(c, {Sort::error_norm, Sort::outcome_error}); }
 
 void check_order(Table& t, const OrderCriterion& slope, const GateSpec& gate, const Case& c) {
   const char* varies = slope.over_time_step ? "courant" : "cells";
@@ -142,7 +142,7 @@ GateKind order_gate() {
   return {.id = "order",
           .says = "how an error falls with the size of cells, or of time steps, lies in a band",
           .keys = {{"times"}, {"expect"}, {"band"}, {"over"}, {"levels_min"}},
-          .quantities = quantities_of,
+          .quantities = quantities_of_order,
           .read = read_order,
           .check_all = check_orders};
 }

@@ -77,10 +77,10 @@ void read_measure(const GateSpec& gate, const JudgedRun& judged, const std::stri
 ErrorNorm::ErrorNorm(const std::string& quantity)
     : field(quantity.substr(0, quantity.find('.'))), norm(quantity.substr(quantity.find('.') + 1)) {}
 
-analytic::Quantity ErrorNorm::of() const {
-  return field == "stress"     ? analytic::Quantity::stress
-         : field == "velocity" ? analytic::Quantity::velocity
-                               : analytic::Quantity::displacement;
+analytic::BarQuantity ErrorNorm::of() const {
+  return field == "stress"     ? analytic::BarQuantity::stress
+         : field == "velocity" ? analytic::BarQuantity::velocity
+                               : analytic::BarQuantity::displacement;
 }
 
 analytic::Norm ErrorNorm::as() const {

@@ -32,7 +32,7 @@ struct ErrorNorm {
   std::string field, norm;
 
   explicit ErrorNorm(const std::string& quantity);
-  analytic::Quantity of() const;  ///< of bars
+  analytic::BarQuantity of() const;  ///< of bars
   analytic::Norm as() const;
 };
 

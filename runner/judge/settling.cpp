@@ -24,10 +24,10 @@ using Sort = Quantity::Sort;
 
 // ---- the keys -------------------------------------------------------------------------------------------------------
 
-Names quantities_of(const Case& c) { return quantity_names(c, {Sort::probe, Sort::history}); }
+Names quantities_of_settling(const Case& c) { return quantity_names(c, {Sort::probe, Sort::history}); }
 
 /// One or two methods, each otherwise alike on four meshes or more.
-void check_runs(const Place& place, bool of_probe, const GateSpec& gate, const Case& c) {
+void check_runs_of_settling(const Place& place, bool of_probe, const GateSpec& gate, const Case& c) {
   std::map<std::string, std::set<int>> meshes;
   std::map<std::string, std::set<std::string>> otherwise;
   for (const Leaf& run : runs_of(gate, c)) {
@@ -56,7 +56,7 @@ void read_settling(Table& t, const Case& c, GateSpec& gate) {
     if (limit.judged.size() < 2 && !c.axes.empty())
       t.place("judged").refuse(listed(limit.judged), "two meshes or more, for what changes between them");
   }
-  if (!c.axes.empty()) check_runs(t.place("where"), of_probe, gate, c);
+  if (!c.axes.empty()) check_runs_of_settling(t.place("where"), of_probe, gate, c);
   gate.criterion = std::make_shared<SettlingCriterion>(limit);
 }
 
@@ -137,7 +137,7 @@ GateKind settling_gate() {
           .says = "what is read changes little, or less and less, from mesh to mesh",
           .scenes = GateKind::Scenes::plates,
           .keys = {{"times", {"probe."}}, {"max"}, {"judged", {"probe."}}},
-          .quantities = quantities_of,
+          .quantities = quantities_of_settling,
           .read = read_settling};
 }
 

@@ -17,10 +17,12 @@
 namespace diptych::runner {
 namespace {
 
-using analytic::Quantity;
+using analytic::BarQuantity;
 
-constexpr std::array<std::pair<Quantity, const char*>, 3> quantities{
-    {{Quantity::stress, "stress"}, {Quantity::velocity, "velocity"}, {Quantity::displacement, "displacement"}}};
+constexpr std::array<std::pair<BarQuantity, const char*>, 3> bar_quantities{
+    {{BarQuantity::stress, "stress"},
+     {BarQuantity::velocity, "velocity"},
+     {BarQuantity::displacement, "displacement"}}};
 
 double differing_numbers(const Record& a, const Record& b, const PowersOfTwo& by, bool mirror) {
   double count = a.snapshots.size() == b.snapshots.size() && a.outcome == b.outcome ? 0 : 1;
@@ -95,7 +97,7 @@ reports::Sample BarLeaf::sample(const Snapshot& own, const Snapshot& at, double 
   sample.time = (time - origin) / unit;
   const auto theory = discretisation(c, leaf, run.courant);
   const analytic::ExactSolution* exact = exact_.get();
-  for (const auto& [q, name] : quantities) {
+  for (const auto& [q, name] : bar_quantities) {
     const Field& field = field_of(own, q);
     if (drawn(c, leaf, &Recorded::curves)) {
       sample.curves[name] = polyline(at, q, leaf, moves);

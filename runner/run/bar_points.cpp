@@ -8,7 +8,7 @@
 namespace diptych::runner {
 namespace {
 
-using analytic::Quantity;
+using analytic::BarQuantity;
 
 /// The points of a field, all bars in a row.
 reports::BarPoints points_of(const Field& field, const std::string& kind) {
@@ -27,9 +27,9 @@ std::vector<reports::BarPoints> bar_points(const Snapshot& snapshot, bool elemen
                                            const analytic::ExactSolution* exact, const std::vector<Span>& bars) {
   std::vector<reports::BarPoints> all;
   const double time = snapshot.displacement.time;
-  for (const auto& [q, name] : {std::pair{Quantity::displacement, "displacement"},
-                                {Quantity::velocity, "velocity"},
-                                {Quantity::stress, "stress"}}) {
+  for (const auto& [q, name] : {std::pair{BarQuantity::displacement, "displacement"},
+                                {BarQuantity::velocity, "velocity"},
+                                {BarQuantity::stress, "stress"}}) {
     const Field& field = field_of(snapshot, q);
     const std::string kind = !elements ? "particles" : field.edges.empty() ? "nodes" : "elements";
     if (all.empty() || all.back().kind != kind) all.push_back(points_of(field, kind));

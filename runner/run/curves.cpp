@@ -8,7 +8,7 @@
 namespace diptych::runner {
 namespace {
 
-using analytic::Quantity;
+using analytic::BarQuantity;
 
 void add_break(reports::Curve& curve) {
   curve.x.push_back(std::nan(""));
@@ -17,11 +17,11 @@ void add_break(reports::Curve& curve) {
 
 }  // namespace
 
-const Field& field_of(const Snapshot& s, Quantity q) {
-  return q == Quantity::stress ? s.stress : q == Quantity::velocity ? s.velocity : s.displacement;
+const Field& field_of(const Snapshot& s, BarQuantity q) {
+  return q == BarQuantity::stress ? s.stress : q == BarQuantity::velocity ? s.velocity : s.displacement;
 }
 
-reports::Curve polyline(const Snapshot& snapshot, Quantity q, const Leaf& leaf, bool moves) {
+reports::Curve polyline(const Snapshot& snapshot, BarQuantity q, const Leaf& leaf, bool moves) {
   reports::Curve curve;
   for (std::size_t b = 0; b < snapshot.stress.first.size(); ++b) {
     const Field field = field_of(snapshot, q).of_bar(b), displacement = snapshot.displacement.of_bar(b);
@@ -43,8 +43,8 @@ reports::Curve polyline(const Snapshot& snapshot, Quantity q, const Leaf& leaf, 
   return curve;
 }
 
-reports::Curve exact_line(const analytic::ExactSolution& exact, Quantity q, const std::vector<Span>& bars, double time,
-                          bool moves) {
+reports::Curve exact_line(const analytic::ExactSolution& exact, BarQuantity q, const std::vector<Span>& bars,
+                          double time, bool moves) {
   const auto fronts = exact.fronts(time);
   reports::Curve curve;
   for (const Span& bar : bars) {
@@ -65,7 +65,7 @@ reports::Curve exact_line(const analytic::ExactSolution& exact, Quantity q, cons
     std::sort(xs.begin(), xs.end());
     if (!curve.x.empty()) add_break(curve);
     for (const double x : xs) {
-      curve.x.push_back(moves ? x + exact.at(Quantity::displacement, x, time) : x);
+      curve.x.push_back(moves ? x + exact.at(BarQuantity::displacement, x, time) : x);
       curve.y.push_back(exact.at(q, x, time));
     }
   }
@@ -114,10 +114,10 @@ void trace_paths(const std::vector<Snapshot>& snapshots, const Scene& scene, con
         run.paths.x.push_back(u.x[i] + u.value[i]);
         run.paths.y.push_back(u.time);
         run.path_origins.push_back(u.x[i]);
-        if (!exact || !exact->gives(Quantity::displacement)) continue;
+        if (!exact || !exact->gives(BarQuantity::displacement)) continue;
         const double length = scene.bars[b].length, inside = 1e-9 * length;
         const double x = std::clamp(u.x[i], scene.bars[b].begin + inside, scene.bars[b].end() - inside);
-        double place = x + exact->at(Quantity::displacement, x, u.time);
+        double place = x + exact->at(BarQuantity::displacement, x, u.time);
         // A struck face without hardening stands still while what is next to it flows into it.
         if (k == (b == 0 ? parts : 0)) place += (b == 0 ? -1 : 1) * exact->strain_of_face(u.time);
         run.exact_paths.x.push_back(place);

@@ -13,18 +13,18 @@
 
 namespace diptych::runner {
 
-const Field& field_of(const Snapshot&, analytic::Quantity);
+const Field& field_of(const Snapshot&, analytic::BarQuantity);
 
 /// Whether some figure draws the run and needs it to keep this.
 bool drawn(const Case&, const Leaf&, bool Recorded::*what);
 
 /// As the method knows the field: an element's stress over the element, a particle's at the particle. Bars that move
 /// are drawn where they are; between two bars the line breaks.
-reports::Curve polyline(const Snapshot&, analytic::Quantity, const Leaf&, bool moves);
+reports::Curve polyline(const Snapshot&, analytic::BarQuantity, const Leaf&, bool moves);
 
 /// The exact field on a line fine enough to draw, broken at its fronts and between bars. On a front nothing is read:
 /// two that pass each other just now would draw a spike of no width.
-reports::Curve exact_line(const analytic::ExactSolution&, analytic::Quantity, const std::vector<Span>& bars,
+reports::Curve exact_line(const analytic::ExactSolution&, analytic::BarQuantity, const std::vector<Span>& bars,
                           double time, bool moves);
 
 /// The steps at which motion figures want to know where the bars are: evenly over the run, and over what they magnify.

@@ -9,7 +9,7 @@
 namespace diptych::runner {
 namespace {
 
-using analytic::Quantity;
+using analytic::BarQuantity;
 
 /// Mean over the bar of a field given at points, each of which stands for what is nearest to it: the mass of FEM's
 /// lumped nodes and of particles.
@@ -63,7 +63,7 @@ void measure_outcomes(const Scene& scene, const std::vector<Span>& bars, const R
       const Bar& bar = scene.bars[b];
       start[b] = bar.initial_velocity ? bar.initial_velocity(bar.begin + bar.length / 2) : 0;
       now[b] = mean_at_points(v.of_bar(b), bars[b]);
-      if (contacts) exact_now[b] = mean_between_fronts(*exact, Quantity::velocity, bars[b], v.time);
+      if (contacts) exact_now[b] = mean_between_fronts(*exact, BarQuantity::velocity, bars[b], v.time);
     }
     const double closing = start[0] - start[1];
     if (closing > 0) {

@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+BOOST_AUTO_TEST_SUITE(bar_impact)
+
 namespace {
 
 using namespace diptych::analytic;
@@ -39,8 +41,8 @@ void near(double value, double expected, double scale, double tolerance = 1e-12)
 /// Stress and velocity at one point, on the scale of the solution.
 void state(const BarImpact& bars, double x, double t, double stress, double velocity) {
   BOOST_TEST_CONTEXT("x = " << x << ", t = " << t) {
-    near(bars.at(Quantity::stress, x, t), stress, bars.scale(Quantity::stress));
-    near(bars.at(Quantity::velocity, x, t), velocity, bars.scale(Quantity::velocity));
+    near(bars.at(BarQuantity::stress, x, t), stress, bars.scale(BarQuantity::stress));
+    near(bars.at(BarQuantity::velocity, x, t), velocity, bars.scale(BarQuantity::velocity));
   }
 }
 
@@ -114,8 +116,6 @@ Parameters mirrored(Parameters p) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(bar_impact)
-
 // Equal impedances: by symmetry v* = 0, so σ* = −ρc v0 behind fronts at ±c. Each front comes back from its free end
 // with σ = 0 and v = ∓v0 behind it and is at the contact after 2L/c, where two bars that recede part.
 BOOST_AUTO_TEST_CASE(equal_elastic_bars_exchange_velocities) {
@@ -136,13 +136,13 @@ BOOST_AUTO_TEST_CASE(equal_elastic_bars_exchange_velocities) {
   near(bars.position(1, onset + 0.004), 0.75, 1);
   near(bars.position(0, onset + 0.005), 0.255, 1);          // not yet told: onset v + 0.005 v
   near(bars.position(0, onset + 0.012), 0.255 - 0.007, 1);  // thrown back at onset + L/c
-  near(bars.at(Quantity::displacement, 1.5, onset + 0.012), -0.248, 1);
+  near(bars.at(BarQuantity::displacement, 1.5, onset + 0.012), -0.248, 1);
   near(bars.strain_energy(onset + 0.005), 0.5, 1);  // all of ½ρv²·2L, at rest
   near(bars.kinetic_energy(onset + 0.005), 0, 1);
   BOOST_TEST(bars.plastic_work(1) == 0);
-  BOOST_TEST(bars.scale(Quantity::stress) == 100);
-  BOOST_TEST(bars.scale(Quantity::velocity) == 2);
-  near(bars.scale(Quantity::displacement), 0.01, 0.01);
+  BOOST_TEST(bars.scale(BarQuantity::stress) == 100);
+  BOOST_TEST(bars.scale(BarQuantity::velocity) == 2);
+  near(bars.scale(BarQuantity::displacement), 0.01, 0.01);
   sound(bars);
   contacts(BarImpact({{elastic(0, 0.5, v), elastic(0.5, 0.5, -v)}, {}, {}, 1}), {{0, 0, 0.01}});
 }
@@ -193,7 +193,7 @@ BOOST_AUTO_TEST_CASE(unequal_lengths_graze_and_part_once) {
   state(bars, 0.35, 0.0075, 0, 0);
   state(bars, 0.6, 0.0069, -50, 0.5);
   state(bars, 0.99, 0.0075, 0, 1);
-  near(bars.at(Quantity::displacement, 0.299, 2.9), 0.003, 0.01);  // ½·0.006 of bar 1's right end
+  near(bars.at(BarQuantity::displacement, 0.299, 2.9), 0.003, 0.01);  // ½·0.006 of bar 1's right end
   for (const double t : {0.0, 0.005, 0.03, 2.9}) {
     near(bars.momentum(t), 0.3, 1);
     near(energy(bars, t), 0.15, 1);
@@ -280,9 +280,9 @@ BOOST_AUTO_TEST_CASE(a_bar_against_a_wall) {
     state(bars, 0.4, period + 0.015, -100, 0);
     state(bars, 0, period + 0.019, -100, 0);
     state(bars, 0, period + 0.021, 100, 0);
-    near(bars.at(Quantity::displacement, 1, period + 0.01), -0.01, 0.01);
-    near(bars.at(Quantity::displacement, 1, period + 0.03), 0.01, 0.01);
-    near(bars.at(Quantity::displacement, 0.5, period + 0.03), 0.005, 0.01);
+    near(bars.at(BarQuantity::displacement, 1, period + 0.01), -0.01, 0.01);
+    near(bars.at(BarQuantity::displacement, 1, period + 0.03), 0.01, 0.01);
+    near(bars.at(BarQuantity::displacement, 0.5, period + 0.03), 0.005, 0.01);
   }
   BOOST_TEST(bars.contacts().empty());
   sound(bars);
@@ -290,7 +290,7 @@ BOOST_AUTO_TEST_CASE(a_bar_against_a_wall) {
   const BarImpact pair({{elastic(-1, 1, 1), elastic(0, 1, -1)}, {}, {}, 0.2});
   for (const double t : {0.0037, 0.011, 0.0199})
     for (const double x : {0.1, 0.45, 0.83})
-      state(bars, x, t, pair.at(Quantity::stress, x, t), pair.at(Quantity::velocity, x, t));
+      state(bars, x, t, pair.at(BarQuantity::stress, x, t), pair.at(BarQuantity::velocity, x, t));
   state(pair, 0.5, 0.021, 0, 1);
 }
 
@@ -307,8 +307,8 @@ BOOST_AUTO_TEST_CASE(one_bar_is_the_bar_of_dalembert) {
     const BarImpact bars({{{0, 1, 1e4, 1}}, left, right, until});
     for (int i = 1; i < 2000; ++i) {
       const double t = until * std::fmod(i * 0.7548776662, 1), x = std::fmod(i * 0.5698402910, 1);
-      for (const auto quantity : {Quantity::stress, Quantity::velocity, Quantity::displacement}) {
-        const double scale = wave.scale(quantity) * (quantity == Quantity::displacement ? 1 + until * 100 : 1);
+      for (const auto quantity : {BarQuantity::stress, BarQuantity::velocity, BarQuantity::displacement}) {
+        const double scale = wave.scale(quantity) * (quantity == BarQuantity::displacement ? 1 + until * 100 : 1);
         near(bars.at(quantity, x, t), wave.at(quantity, x, t), scale);
       }
     }
@@ -487,12 +487,13 @@ BOOST_AUTO_TEST_CASE(at_rest_nothing_is_anything_but_zero) {
       const BarImpact bars({{hardening(0, 0.5, 0), elastic(0.5, 0.5, 0), elastic(1.5, 1, 0)}, left, right, 1, bonded});
       for (const double t : {0.0, 0.3, 1.0}) {
         for (const double x : {0.0, 0.2, 0.5, 1.0, 1.7, 2.5})
-          for (const auto q : {Quantity::stress, Quantity::velocity, Quantity::displacement})
+          for (const auto q : {BarQuantity::stress, BarQuantity::velocity, BarQuantity::displacement})
             BOOST_TEST(bars.at(q, x, t) == 0);
         BOOST_TEST(bars.fronts(t).empty());
         BOOST_TEST(energy(bars, t) == 0);
       }
-      for (const auto q : {Quantity::stress, Quantity::velocity, Quantity::displacement}) BOOST_TEST(bars.scale(q) > 0);
+      for (const auto q : {BarQuantity::stress, BarQuantity::velocity, BarQuantity::displacement})
+        BOOST_TEST(bars.scale(q) > 0);
       BOOST_TEST(audit(bars).worst() == 0);
     }
 }
@@ -502,14 +503,14 @@ BOOST_AUTO_TEST_CASE(a_density_ratio_of_a_million) {
   const BarImpact bars({{{0, 0.5, 1e4, 1, 1}, {0.6, 0.7, 1e4, 1e6, 0}}, {}, {}, 100});
   contacts(bars, {{0, 0.1, 0.11}});
   state(bars, 0.45, 0.103, -1e5 / 1001, 1.0 / 1001);
-  near(bars.at(Quantity::velocity, 0.6, 0.103), 1.0 / 1001, 1.0 / 1001);
+  near(bars.at(BarQuantity::velocity, 0.6, 0.103), 1.0 / 1001, 1.0 / 1001);
   state(bars, 0.2, 50, 0, 2.0 / 1001 - 1);
   near(bars.momentum(0, 100), 0.5 * (2.0 / 1001 - 1), 1);
   near(bars.momentum(1, 100), 0.5 - 0.5 * (2.0 / 1001 - 1), 1);
   sound(bars);
   const BarImpact heavy_first({{{0, 0.5, 1e4, 1e6, 1}, {0.5, 0.5, 1e4, 1, 0}}, {}, {}, 1});
   contacts(heavy_first, {{0, 0, 0.01}});  // the light one is thrown off
-  near(heavy_first.at(Quantity::velocity, 0.9, 0.5), 2000.0 / 1001, 1);
+  near(heavy_first.at(BarQuantity::velocity, 0.9, 0.5), 2000.0 / 1001, 1);
   sound(heavy_first);
 }
 
@@ -526,10 +527,10 @@ BOOST_AUTO_TEST_CASE(a_uniform_velocity_changes_nothing_but_place) {
       const double t = p.until * std::fmod(i * 0.7548776662, 1),
                    x = 0.5 * std::fmod(i * 0.5698402910, 1) + (i % 2) * 0.7;
       if (x > 0.5 && x < 0.6) continue;
-      const auto difference = [&](Quantity q) { return moving.at(q, x, t) - still.at(q, x, t); };
-      near(difference(Quantity::stress), 0, still.scale(Quantity::stress));
-      near(difference(Quantity::velocity), w, still.scale(Quantity::velocity));
-      near(difference(Quantity::displacement), w * t, 1);
+      const auto difference = [&](BarQuantity q) { return moving.at(q, x, t) - still.at(q, x, t); };
+      near(difference(BarQuantity::stress), 0, still.scale(BarQuantity::stress));
+      near(difference(BarQuantity::velocity), w, still.scale(BarQuantity::velocity));
+      near(difference(BarQuantity::displacement), w * t, 1);
     }
     sound(moving);
   }
@@ -546,7 +547,7 @@ BOOST_AUTO_TEST_CASE(mirror_images) {
         const double t = p.until * std::fmod(i * 0.7548776662, 1);
         const double x = bar.begin + bar.length * std::fmod(i * 0.5698402910, 1);
         for (const auto& [q, sign] :
-             {std::pair{Quantity::stress, 1}, {Quantity::velocity, -1}, {Quantity::displacement, -1}})
+             {std::pair{BarQuantity::stress, 1}, {BarQuantity::velocity, -1}, {BarQuantity::displacement, -1}})
           near(other.at(q, -x, t), sign * one.at(q, x, t), one.scale(q));
       }
   }
@@ -572,9 +573,9 @@ BOOST_AUTO_TEST_CASE(units_scale_exactly) {
     for (int i = 1; i < 200; ++i) {
       const double t = p.until * std::fmod(i * 0.7548776662, 1);
       const double from = bar.length * std::fmod(i * 0.5698402910, 1), x = bar.begin + from;
-      BOOST_TEST(other.at(Quantity::stress, 8 * x, 4 * t) == 0.5 * one.at(Quantity::stress, x, t));
-      BOOST_TEST(other.at(Quantity::velocity, 8 * x, 4 * t) == 2 * one.at(Quantity::velocity, x, t));
-      BOOST_TEST(other.at(Quantity::displacement, 8 * x, 4 * t) == 8 * one.at(Quantity::displacement, x, t));
+      BOOST_TEST(other.at(BarQuantity::stress, 8 * x, 4 * t) == 0.5 * one.at(BarQuantity::stress, x, t));
+      BOOST_TEST(other.at(BarQuantity::velocity, 8 * x, 4 * t) == 2 * one.at(BarQuantity::velocity, x, t));
+      BOOST_TEST(other.at(BarQuantity::displacement, 8 * x, 4 * t) == 8 * one.at(BarQuantity::displacement, x, t));
     }
 }
 
@@ -720,7 +721,7 @@ BOOST_AUTO_TEST_CASE(bad_parameters_are_refused) {
 
   const BarImpact bars({{elastic(0, 1, 0), elastic(2, 1, 0)}, {}, {}, 1});
   const auto outside = [&](double x, double t) {
-    BOOST_CHECK_THROW(bars.at(Quantity::stress, x, t), std::domain_error);
+    BOOST_CHECK_THROW(bars.at(BarQuantity::stress, x, t), std::domain_error);
   };
   for (const double x : {-0.001, 1.001, 1.999, 3.001, nan, infinite, -infinite}) outside(x, 0.5);
   for (const double t : {-0.001, 1.001, nan, infinite}) {

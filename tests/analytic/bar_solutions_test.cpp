@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-using namespace diptych::analytic;
-
 BOOST_AUTO_TEST_SUITE(bar_solutions)
+
+using namespace diptych::analytic;
 
 /// Whatever a law is called: what counts is the curve that the fronts run on.
 BOOST_AUTO_TEST_CASE(bars_of_impacts_have_a_straight_or_bilinear_curve) {

@@ -12,6 +12,8 @@
 
 #include "tests/spoiled.hpp"
 
+BOOST_AUTO_TEST_SUITE(bar_wave)
+
 namespace {
 
 using namespace diptych::analytic;
@@ -24,14 +26,14 @@ BarWave fixed_free() { return BarWave({1e4, 1, 1, held, loaded(Traction::step(1)
 BarWave both_loaded(const Traction& f) { return BarWave({1e4, 1, 1, loaded(f), loaded(f)}); }
 
 /// Compares on the scale of the solution: a tolerance relative to an expected zero would be none.
-void check(const BarWave& bar, Quantity quantity, double x, double t, double expected) {
+void check(const BarWave& bar, BarQuantity quantity, double x, double t, double expected) {
   const double value = bar.at(quantity, x, t);
   BOOST_TEST_REQUIRE(std::isfinite(value));
   BOOST_TEST(std::abs(value - expected) <= 1e-12 * bar.scale(quantity),
              "at x = " << x << ", t = " << t << ": " << value << " instead of " << expected);
 }
 
-void check_whole_bar(const BarWave& bar, Quantity quantity, double t, double expected) {
+void check_whole_bar(const BarWave& bar, BarQuantity quantity, double t, double expected) {
   for (int i = 0; i < 20; ++i) check(bar, quantity, bar.parameters().length * (i + 0.5) / 20, t, expected);
 }
 
@@ -45,7 +47,7 @@ double energy(const BarWave& bar, double t, int cells) {
   double sum = 0;
   for (int i = 0; i < cells; ++i) {
     const double x = p.length * (i + 0.5) / cells;
-    const double v = bar.at(Quantity::velocity, x, t), sigma = bar.at(Quantity::stress, x, t);
+    const double v = bar.at(BarQuantity::velocity, x, t), sigma = bar.at(BarQuantity::stress, x, t);
     sum += (p.density * v * v + sigma * sigma / p.youngs_modulus) / 2 * p.length / cells;
   }
   return sum;
@@ -57,15 +59,13 @@ double work(const BarWave& bar, double t, int steps) {
   double sum = 0;
   for (int i = 0; i < steps; ++i) {
     const double s = t * (i + 0.5) / steps;
-    sum += p.right.traction.value(s) * bar.at(Quantity::velocity, p.length, s) * t / steps;
-    sum -= p.left.traction.value(s) * bar.at(Quantity::velocity, 0, s) * t / steps;
+    sum += p.right.traction.value(s) * bar.at(BarQuantity::velocity, p.length, s) * t / steps;
+    sum -= p.left.traction.value(s) * bar.at(BarQuantity::velocity, 0, s) * t / steps;
   }
   return sum;
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(bar_wave)
 
 BOOST_AUTO_TEST_CASE(tractions) {
   const auto step = Traction::step(3, 2), ramp = Traction::ramp(3, 4, 2), impulse = Traction::impulse(3, 4, 2);
@@ -88,17 +88,17 @@ BOOST_AUTO_TEST_CASE(step_on_fixed_free_bar) {
   const auto bar = fixed_free();
   BOOST_TEST(bar.wave_speed() == 100);
   for (const double period : {0.0, 0.04, 0.08}) {  // 4L/c
-    check_whole_bar(bar, Quantity::stress, period + 1e-9, 0);
-    check(bar, Quantity::stress, 0, period + 0.0099, 0);
-    check(bar, Quantity::stress, 0, period + 0.0101, 2);  // doubles at the wall at ct = L
-    check(bar, Quantity::stress, 0.25, period + 0.0101, 1);
-    check_whole_bar(bar, Quantity::stress, period + 0.02 - 1e-9, 2);
-    check(bar, Quantity::displacement, 1, period + 0.02, 2e-4);  // 2fL/E
-    check(bar, Quantity::displacement, 1, period + 0.03, 1e-4);
-    check(bar, Quantity::displacement, 1, period + 0.04, 0);
-    check_whole_bar(bar, Quantity::velocity, period + 0.01 - 1e-9, 0.01);  // f/(ρc)
-    check(bar, Quantity::displacement, 0.5, period + 0.01, 0.5e-4);
-    check(bar, Quantity::stress, 1, period + 0.033, 1);
+    check_whole_bar(bar, BarQuantity::stress, period + 1e-9, 0);
+    check(bar, BarQuantity::stress, 0, period + 0.0099, 0);
+    check(bar, BarQuantity::stress, 0, period + 0.0101, 2);  // doubles at the wall at ct = L
+    check(bar, BarQuantity::stress, 0.25, period + 0.0101, 1);
+    check_whole_bar(bar, BarQuantity::stress, period + 0.02 - 1e-9, 2);
+    check(bar, BarQuantity::displacement, 1, period + 0.02, 2e-4);  // 2fL/E
+    check(bar, BarQuantity::displacement, 1, period + 0.03, 1e-4);
+    check(bar, BarQuantity::displacement, 1, period + 0.04, 0);
+    check_whole_bar(bar, BarQuantity::velocity, period + 0.01 - 1e-9, 0.01);  // f/(ρc)
+    check(bar, BarQuantity::displacement, 0.5, period + 0.01, 0.5e-4);
+    check(bar, BarQuantity::stress, 1, period + 0.033, 1);
   }
 }
 
@@ -106,28 +106,28 @@ BOOST_AUTO_TEST_CASE(steps_on_both_ends) {
   const auto bar = both_loaded(Traction::step(1));
   const double lc = 0.01;
   for (const double period : {0.0, 2 * lc, 4 * lc}) {
-    check(bar, Quantity::stress, 0.5, period + 0.499 * lc, 0);
-    check(bar, Quantity::stress, 0.5, period + 0.501 * lc, 2);
-    check(bar, Quantity::stress, 0.5, period + 1.499 * lc, 2);
-    check(bar, Quantity::stress, 0.5, period + 1.501 * lc, 0);
+    check(bar, BarQuantity::stress, 0.5, period + 0.499 * lc, 0);
+    check(bar, BarQuantity::stress, 0.5, period + 0.501 * lc, 2);
+    check(bar, BarQuantity::stress, 0.5, period + 1.499 * lc, 2);
+    check(bar, BarQuantity::stress, 0.5, period + 1.501 * lc, 0);
     for (const double t : {0.1 * lc, 0.7 * lc, 1.3 * lc, 1.9 * lc})
-      for (const double x : {0.0, 1.0}) check(bar, Quantity::stress, x, period + t, 1);
-    for (const double t : {0.3 * lc, 0.9 * lc, 1.7 * lc}) check(bar, Quantity::displacement, 0.5, period + t, 0);
+      for (const double x : {0.0, 1.0}) check(bar, BarQuantity::stress, x, period + t, 1);
+    for (const double t : {0.3 * lc, 0.9 * lc, 1.7 * lc}) check(bar, BarQuantity::displacement, 0.5, period + t, 0);
   }
 }
 
 BOOST_AUTO_TEST_CASE(compressive_impulse_returns_as_tension) {
   const double lc = 0.01;
   const auto bar = both_loaded(Traction::impulse(-1, lc));
-  check(bar, Quantity::stress, 0.5, 0.8 * lc, -2);
+  check(bar, BarQuantity::stress, 0.5, 0.8 * lc, -2);
   for (const double period : {0.0, 2 * lc, 4 * lc}) {
-    check_whole_bar(bar, Quantity::stress, period + 1.5 * lc, 0);
-    check(bar, Quantity::stress, 0.5, period + 1.6 * lc, 2);
-    check_whole_bar(bar, Quantity::stress, period + 2 * lc - 1e-9, 2);
-    check_whole_bar(bar, Quantity::stress, period + 2.5 * lc, 0);
-    check_whole_bar(bar, Quantity::stress, period + 3 * lc - 1e-9, -2);
+    check_whole_bar(bar, BarQuantity::stress, period + 1.5 * lc, 0);
+    check(bar, BarQuantity::stress, 0.5, period + 1.6 * lc, 2);
+    check_whole_bar(bar, BarQuantity::stress, period + 2 * lc - 1e-9, 2);
+    check_whole_bar(bar, BarQuantity::stress, period + 2.5 * lc, 0);
+    check_whole_bar(bar, BarQuantity::stress, period + 3 * lc - 1e-9, -2);
   }
-  check_whole_bar(bar, Quantity::stress, lc - 1e-9, -2);
+  check_whole_bar(bar, BarQuantity::stress, lc - 1e-9, -2);
 }
 
 BOOST_AUTO_TEST_CASE(free_body_moves_as_a_rigid_one_in_the_mean) {
@@ -135,7 +135,8 @@ BOOST_AUTO_TEST_CASE(free_body_moves_as_a_rigid_one_in_the_mean) {
   const double c = bar.wave_speed(), t = 6 * 0.3 / c;
   BOOST_TEST_REQUIRE(t > 1e-4);
   double momentum = 0;
-  for (int i = 0; i < 6000; ++i) momentum += 7.8e3 * bar.at(Quantity::velocity, 0.3 * (i + 0.5) / 6000, t) * 0.3 / 6000;
+  for (int i = 0; i < 6000; ++i)
+    momentum += 7.8e3 * bar.at(BarQuantity::velocity, 0.3 * (i + 0.5) / 6000, t) * 0.3 / 6000;
   BOOST_TEST(momentum == -5e6 * 1e-4, boost::test_tools::tolerance(1e-3));  // two jumps, each within one of 6000 cells
 }
 
@@ -178,7 +179,7 @@ BOOST_AUTO_TEST_CASE(mirror_images) {
   for (int i = 1; i < 400; ++i) {
     const double t = 0.001 * i * 0.2137, x = std::fmod(i * 0.618034, 1);
     for (const auto& [quantity, sign] :
-         {std::pair{Quantity::stress, 1}, {Quantity::velocity, -1}, {Quantity::displacement, -1}})
+         {std::pair{BarQuantity::stress, 1}, {BarQuantity::velocity, -1}, {BarQuantity::displacement, -1}})
       check(left, quantity, 1 - x, t, sign * right.at(quantity, x, t));
   }
 }
@@ -194,11 +195,11 @@ BOOST_AUTO_TEST_CASE(units_scale_exactly) {
   const BarWave other({1.3 * 8, 0.9 * 2, 1.7 * 8, load(0.5, 4), loaded(Traction::step(0.15))});
   for (int i = 0; i < 300; ++i) {
     const double x = 1.7 * std::fmod(i * 0.618034, 1), t = 0.03 * i;
-    BOOST_TEST(other.at(Quantity::stress, 8 * x, 4 * t) == 0.5 * one.at(Quantity::stress, x, t));
-    BOOST_TEST(other.at(Quantity::velocity, 8 * x, 4 * t) == 0.125 * one.at(Quantity::velocity, x, t));
-    BOOST_TEST(other.at(Quantity::displacement, 8 * x, 4 * t) == 0.5 * one.at(Quantity::displacement, x, t));
+    BOOST_TEST(other.at(BarQuantity::stress, 8 * x, 4 * t) == 0.5 * one.at(BarQuantity::stress, x, t));
+    BOOST_TEST(other.at(BarQuantity::velocity, 8 * x, 4 * t) == 0.125 * one.at(BarQuantity::velocity, x, t));
+    BOOST_TEST(other.at(BarQuantity::displacement, 8 * x, 4 * t) == 0.5 * one.at(BarQuantity::displacement, x, t));
   }
-  BOOST_TEST(other.scale(Quantity::displacement) == 0.5 * one.scale(Quantity::displacement));
+  BOOST_TEST(other.scale(BarQuantity::displacement) == 0.5 * one.scale(BarQuantity::displacement));
 }
 
 BOOST_AUTO_TEST_CASE(work_of_the_tractions_becomes_energy) {
@@ -209,8 +210,8 @@ BOOST_AUTO_TEST_CASE(work_of_the_tractions_becomes_energy) {
     const double scale = 9e10 / 2e9 * 0.3;
     for (const double ct : {0.15, 0.45, 0.75, 1.05, 1.95}) {  // fronts between the cells of the quadrature
       const double t = ct * 0.3 / bar.wave_speed();
-      const double moved = right.traction.value(t) * bar.at(Quantity::displacement, 0.3, t) -
-                           left.traction.value(t) * bar.at(Quantity::displacement, 0, t);
+      const double moved = right.traction.value(t) * bar.at(BarQuantity::displacement, 0.3, t) -
+                           left.traction.value(t) * bar.at(BarQuantity::displacement, 0, t);
       const double stored = energy(bar, t, 100);
       BOOST_TEST_REQUIRE(stored > 0);
       BOOST_TEST(std::abs(moved - stored) <= 1e-9 * scale);
@@ -224,11 +225,11 @@ BOOST_AUTO_TEST_CASE(work_of_the_tractions_becomes_energy) {
 
 BOOST_AUTO_TEST_CASE(scales) {
   const BarWave bar({4, 1, 3, loaded(Traction::impulse(-5, 1)), loaded(Traction::ramp(2, 1))});
-  BOOST_TEST(bar.scale(Quantity::stress) == 5);
-  BOOST_TEST(bar.scale(Quantity::velocity) == 2.5);
-  BOOST_TEST(bar.scale(Quantity::displacement) == 3.75);
+  BOOST_TEST(bar.scale(BarQuantity::stress) == 5);
+  BOOST_TEST(bar.scale(BarQuantity::velocity) == 2.5);
+  BOOST_TEST(bar.scale(BarQuantity::displacement) == 3.75);
   Traction sawtooth{{{0, 0, 2}, {3, -6, -2}}};  // sup on the near side of a jump
-  BOOST_TEST(BarWave({4, 1, 3, held, loaded(sawtooth)}).scale(Quantity::stress) == 6);
+  BOOST_TEST(BarWave({4, 1, 3, held, loaded(sawtooth)}).scale(BarQuantity::stress) == 6);
 }
 
 BOOST_AUTO_TEST_CASE(bad_parameters_are_refused) {
@@ -246,9 +247,9 @@ BOOST_AUTO_TEST_CASE(bad_parameters_are_refused) {
   refused({1, 1, 1, held, loaded(Traction::step(nan))});
   refused({1, 1, 1, held, loaded({{{0, 0, 1}}})});
   const auto bar = fixed_free();
-  BOOST_CHECK_THROW(bar.at(Quantity::stress, 1.1, 0), std::domain_error);
-  BOOST_CHECK_THROW(bar.at(Quantity::stress, nan, 0), std::domain_error);
-  BOOST_CHECK_THROW(bar.at(Quantity::stress, 0.5, nan), std::domain_error);
+  BOOST_CHECK_THROW(bar.at(BarQuantity::stress, 1.1, 0), std::domain_error);
+  BOOST_CHECK_THROW(bar.at(BarQuantity::stress, nan, 0), std::domain_error);
+  BOOST_CHECK_THROW(bar.at(BarQuantity::stress, 0.5, nan), std::domain_error);
   BOOST_CHECK_THROW(self_test(bar, 0), std::invalid_argument);
   BOOST_CHECK_THROW(self_test(bar, nan), std::invalid_argument);
 }
@@ -273,24 +274,24 @@ BOOST_AUTO_TEST_CASE(self_test_passes_right_solutions) {
 
 BOOST_AUTO_TEST_CASE(self_test_fails_wrong_solutions) {
   const auto bar = fixed_free();
-  const auto same = [bar](Quantity q, double x, double t) { return bar.at(q, x, t); };
+  const auto same = [bar](BarQuantity q, double x, double t) { return bar.at(q, x, t); };
   BOOST_TEST(residual_of(Spoiled(bar, same)).worst() < 1e-9);  // what follows is not the wrapper's fault
 
   const auto of = [&](const Spoiled::At& at) { return residual_of(Spoiled(bar, at)); };
-  const auto times = [bar](Quantity which, double factor) {
-    return [=](Quantity q, double x, double t) { return (q == which ? factor : 1) * bar.at(q, x, t); };
+  const auto times = [bar](BarQuantity which, double factor) {
+    return [=](BarQuantity q, double x, double t) { return (q == which ? factor : 1) * bar.at(q, x, t); };
   };
-  const auto velocity_reversed = of(times(Quantity::velocity, -1));
+  const auto velocity_reversed = of(times(BarQuantity::velocity, -1));
   BOOST_TEST(velocity_reversed.jump > 0.1);
   BOOST_TEST(velocity_reversed.compatibility > 0.1);
   BOOST_TEST(velocity_reversed.boundary < 1e-9);
-  BOOST_TEST(of(times(Quantity::stress, 1.01)).boundary > 1e-3);
-  BOOST_TEST(of(times(Quantity::stress, 1.01)).compatibility > 1e-3);
-  BOOST_TEST(of(times(Quantity::displacement, 0.99)).compatibility > 1e-3);
-  BOOST_TEST(of([=](Quantity q, double x, double t) {
-               return bar.at(q, x, t) + (q == Quantity::displacement ? 1e-6 : 0);
+  BOOST_TEST(of(times(BarQuantity::stress, 1.01)).boundary > 1e-3);
+  BOOST_TEST(of(times(BarQuantity::stress, 1.01)).compatibility > 1e-3);
+  BOOST_TEST(of(times(BarQuantity::displacement, 0.99)).compatibility > 1e-3);
+  BOOST_TEST(of([=](BarQuantity q, double x, double t) {
+               return bar.at(q, x, t) + (q == BarQuantity::displacement ? 1e-6 : 0);
              }).initial > 1e-3);
-  BOOST_TEST(of([](Quantity, double, double) { return 0.0; }).boundary == 1);
+  BOOST_TEST(of([](BarQuantity, double, double) { return 0.0; }).boundary == 1);
 
   // a wrong modulus, a wrong end, a late load, a missing reflection: each a right solution of another problem
   const auto other = [](const BarWave& wrong) { return residual_of(wrong); };
@@ -302,7 +303,7 @@ BOOST_AUTO_TEST_CASE(self_test_fails_wrong_solutions) {
   BOOST_TEST(other(BarWave({1e4, 1, 1, held, loaded(Traction::step(1.01))})).boundary > 1e-3);
   BOOST_TEST(other(BarWave({1e4, 1, 1, loaded(Traction::step(1)), held})).boundary > 0.1);
   const BarWave long_bar({1e4, 1, 2, held, loaded(Traction::step(1))});
-  BOOST_TEST(of([=](Quantity q, double x, double t) { return long_bar.at(q, x + 1, t); }).boundary > 0.1);
+  BOOST_TEST(of([=](BarQuantity q, double x, double t) { return long_bar.at(q, x + 1, t); }).boundary > 0.1);
 
   const auto mutated = [&](std::function<std::vector<Front>(std::vector<Front>)> spoil) {
     Spoiled wrong(bar, same);
@@ -329,7 +330,7 @@ BOOST_AUTO_TEST_CASE(self_test_fails_wrong_solutions) {
 BOOST_AUTO_TEST_CASE(self_test_reports_what_it_could_not_see) {
   const auto bar = fixed_free();
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const auto late_nan = [=](Quantity q, double x, double t) { return t > 0.06 ? nan : bar.at(q, x, t); };
+  const auto late_nan = [=](BarQuantity q, double x, double t) { return t > 0.06 ? nan : bar.at(q, x, t); };
   const auto r = residual_of(Spoiled(bar, late_nan));
   for (const double value : {r.momentum, r.compatibility, r.jump, r.boundary, r.worst()}) BOOST_TEST(std::isnan(value));
   const auto blind = self_test(bar, 1e-9);  // too short to difference, no front inside

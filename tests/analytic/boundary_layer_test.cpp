@@ -3,10 +3,10 @@
 #include <boost/test/unit_test.hpp>
 #include <stdexcept>
 
+BOOST_AUTO_TEST_SUITE(boundary_layer)
+
 using diptych::analytic::end_stress_share;
 namespace tt = boost::test_tools;
-
-BOOST_AUTO_TEST_SUITE(boundary_layer)
 
 BOOST_AUTO_TEST_CASE(shares_by_hand) {
   BOOST_TEST(end_stress_share({0.5}, 1) == 0.5, tt::tolerance(1e-15));         // one centred particle

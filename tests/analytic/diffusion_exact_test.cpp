@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <vector>
 
+BOOST_AUTO_TEST_SUITE(diffusion_exact)
+
 namespace {
 
 using namespace diptych::analytic;
@@ -53,8 +55,6 @@ DiffusionProblem rectangle(const DiffusionSolution& s, double width, double heig
 const ManufacturedVariable::Parameters manufactured{1, 1.5, -0.7, 2e-3, 500, 0.006, 0.01};
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(diffusion_exact)
 
 BOOST_AUTO_TEST_CASE(known_values) {
   const CornerSource corner({pi * 3, 3});                                                          // C = E₁

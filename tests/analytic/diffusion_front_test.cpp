@@ -12,6 +12,8 @@
 
 #include "tests/spoiled_plane.hpp"
 
+BOOST_AUTO_TEST_SUITE(diffusion_front)
+
 namespace {
 
 using namespace diptych::analytic;
@@ -47,8 +49,6 @@ double integral(const std::function<double(double)>& f) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(diffusion_front)
 
 BOOST_AUTO_TEST_CASE(constant_diffusivity) {
   const DiffusionFront front({8, FrontProfile::constant});

@@ -21,6 +21,8 @@
 #include "analytic/bar_wave.hpp"
 #include "analytic/standing_mode.hpp"
 
+BOOST_AUTO_TEST_SUITE(discrete)
+
 namespace {
 
 using namespace diptych::analytic;
@@ -230,7 +232,7 @@ struct Norms {
 /// Integrals of the error over pieces between `breaks` by Gauss's two points, exact for squares of linear pieces.
 template <class Field>
 Norms integrated(std::vector<double> breaks, double length, const Field& field, const ExactSolution& exact,
-                 Quantity quantity, double t) {
+                 BarQuantity quantity, double t) {
   for (const auto& front : exact.fronts(t)) breaks.push_back(front.position);
   breaks.insert(breaks.end(), {0, length});
   std::sort(breaks.begin(), breaks.end());
@@ -251,17 +253,17 @@ double on_line(const std::vector<double>& x, const std::vector<double>& y, doubl
 }
 
 template <class Bar>
-Norms error(const Bar& bar, const ExactSolution& exact, Quantity quantity, double t) {
+Norms error(const Bar& bar, const ExactSolution& exact, BarQuantity quantity, double t) {
   const double length = static_cast<double>(bar.cells);
   std::vector<double> breaks;
-  if (quantity == Quantity::stress) {
+  if (quantity == BarQuantity::stress) {
     const std::size_t per_cell = bar.stress.size() / bar.cells;  // equal within a cell
     for (std::size_t e = 0; e < bar.cells; ++e) breaks.push_back(static_cast<double>(e));
     const auto field = [&](double x) { return bar.stress[static_cast<std::size_t>(x) * per_cell]; };
     return integrated(breaks, length, field, exact, quantity, t);
   }
   for (std::size_t i = 0; i < bar.u.size(); ++i) breaks.push_back(bar.x(i));
-  const auto& values = quantity == Quantity::velocity ? bar.v : bar.u;
+  const auto& values = quantity == BarQuantity::velocity ? bar.v : bar.u;
   return integrated(
       breaks, length, [&](double x) { return on_line(breaks, values, x); }, exact, quantity, t);
 }
@@ -281,7 +283,7 @@ void check_step(Bar bar, double within, double displacement_within) {
   for (const double ct : {0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.5, 3.25}) {
     for (; n < std::lround(ct * length / dt); ++n, bar.load = 1) bar.step();
     const double now = static_cast<double>(n) * dt;
-    const auto check = [&](Quantity quantity, Norm norm, double t, double low, double high) {
+    const auto check = [&](BarQuantity quantity, Norm norm, double t, double low, double high) {
       const auto predicted = predicted_error(exact, bar.d, quantity, norm, t);
       BOOST_TEST_REQUIRE(predicted.has_value());
       const double ratio = error(bar, exact, quantity, t)(norm) / *predicted;
@@ -291,9 +293,9 @@ void check_step(Bar bar, double within, double displacement_within) {
       ++looked_at;
     };
     const double displaced = usf ? now + dt / 2 : now;
-    check(Quantity::stress, Norm::l2, usf ? now - dt / 2 : now, 1 - within, 1 + within);
-    check(Quantity::displacement, Norm::l2, displaced, 1 - displacement_within, 1 + displacement_within);
-    if (bar.d.scheme != Scheme::mpm_usl && ct != 1) check(Quantity::displacement, Norm::linf, displaced, 0.86, 1.07);
+    check(BarQuantity::stress, Norm::l2, usf ? now - dt / 2 : now, 1 - within, 1 + within);
+    check(BarQuantity::displacement, Norm::l2, displaced, 1 - displacement_within, 1 + displacement_within);
+    if (bar.d.scheme != Scheme::mpm_usl && ct != 1) check(BarQuantity::displacement, Norm::linf, displaced, 0.86, 1.07);
   }
   BOOST_TEST(looked_at == (bar.d.scheme == Scheme::mpm_usl ? 16 : 23));
 }
@@ -315,8 +317,6 @@ double quadrature(F f, double end) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(discrete)
-
 BOOST_AUTO_TEST_CASE(filters) {
   BOOST_TEST(particle_filter(fem(1, 0.5)) == 0);
   BOOST_TEST(particle_filter({Scheme::mpm_usl, 1, 0.5, {0.5}}) == 1);
@@ -334,7 +334,7 @@ BOOST_AUTO_TEST_CASE(bad_discretisations_are_refused) {
     BOOST_CHECK_THROW(stability_limit(d), std::invalid_argument);
     BOOST_CHECK_THROW(step_factor(d, 1), std::invalid_argument);
     BOOST_CHECK_THROW(front_width(d, 1), std::invalid_argument);
-    BOOST_CHECK_THROW(predicted_error(step_bar(1), d, Quantity::stress, Norm::l2, 1), std::invalid_argument);
+    BOOST_CHECK_THROW(predicted_error(step_bar(1), d, BarQuantity::stress, Norm::l2, 1), std::invalid_argument);
   }
   BOOST_CHECK_THROW(step_factor(fem(1, 1), 4), std::invalid_argument);
   BOOST_CHECK_THROW(front_width(fem(1, 1), -1), std::invalid_argument);
@@ -449,14 +449,14 @@ BOOST_AUTO_TEST_CASE(airy_constants) {
     for (const auto& d : {fem(1, 0.5), Discretisation{Scheme::mpm_musl, 1, 0.9, {0.25, 0.75}}}) {
       const auto bar = step_bar(cells);
       const double t = 0.5 * cells, w = front_width(d, t), next = std::pow(cells, -2.0 / 3);
-      const auto predicted = [&](Quantity q, Norm norm) { return predicted_error(bar, d, q, norm, t).value(); };
-      BOOST_TEST(predicted(Quantity::stress, Norm::l2) == std::sqrt(step_square * w / cells), tolerance(0.01));
-      BOOST_TEST(predicted(Quantity::displacement, Norm::l2) == std::pow(w, 1.5) / 3 / std::sqrt(cells),
+      const auto predicted = [&](BarQuantity q, Norm norm) { return predicted_error(bar, d, q, norm, t).value(); };
+      BOOST_TEST(predicted(BarQuantity::stress, Norm::l2) == std::sqrt(step_square * w / cells), tolerance(0.01));
+      BOOST_TEST(predicted(BarQuantity::displacement, Norm::l2) == std::pow(w, 1.5) / 3 / std::sqrt(cells),
                  tolerance(5 * next));
-      BOOST_TEST(predicted(Quantity::displacement, Norm::linf) == kink_sup * w, tolerance(1e-12));
-      const auto airy = [&](Quantity q, Norm norm) { return airy_step_error(bar, d, q, norm, t).value(); };
-      BOOST_TEST(airy(Quantity::stress, Norm::l2) == std::sqrt(step_square * w / cells), tolerance(1e-6));
-      BOOST_TEST(airy(Quantity::displacement, Norm::l2) == std::pow(w, 1.5) / 3 / std::sqrt(cells), tolerance(1e-6));
+      BOOST_TEST(predicted(BarQuantity::displacement, Norm::linf) == kink_sup * w, tolerance(1e-12));
+      const auto airy = [&](BarQuantity q, Norm norm) { return airy_step_error(bar, d, q, norm, t).value(); };
+      BOOST_TEST(airy(BarQuantity::stress, Norm::l2) == std::sqrt(step_square * w / cells), tolerance(1e-6));
+      BOOST_TEST(airy(BarQuantity::displacement, Norm::l2) == std::pow(w, 1.5) / 3 / std::sqrt(cells), tolerance(1e-6));
     }
   }
 }
@@ -499,11 +499,11 @@ BOOST_AUTO_TEST_CASE(step_errors_of_a_free_bar) {
         bar.load = n == 0 || n == steps(60) ? -1 : n < steps(60) ? -2 : 0;  // half a kick at either end of it
         bar.step();
       }
-      for (const auto q : {Quantity::stress, Quantity::displacement}) {
+      for (const auto q : {BarQuantity::stress, BarQuantity::displacement}) {
         const double predicted = predicted_error(exact, bar.d, q, Norm::l2, t).value();
         BOOST_TEST_REQUIRE(predicted > 1e-4 * exact.scale(q));
         BOOST_TEST(error(bar, exact, q, t)(Norm::l2) == predicted,
-                   tolerance(q == Quantity::stress ? within : displacement_within));
+                   tolerance(q == BarQuantity::stress ? within : displacement_within));
       }
     }
   };
@@ -518,7 +518,7 @@ BOOST_AUTO_TEST_CASE(step_errors_of_a_bar_loaded_at_both_ends) {
   const auto d = fem(1, 0.5);
   const BarWave both({1, 1, 400, {false, f}, {false, f}}), mirrored({1, 1, 200, {false, f}, {true, {}}});
   for (const double t : {50.0, 100.0, 200.0, 270.0, 1000.0}) {
-    for (const auto q : {Quantity::stress, Quantity::displacement}) {
+    for (const auto q : {BarQuantity::stress, BarQuantity::displacement}) {
       const double half = predicted_error(step_bar(200), d, q, Norm::l2, t).value();
       BOOST_TEST(predicted_error(both, d, q, Norm::l2, t).value() == half, tolerance(1e-9));
       BOOST_TEST(predicted_error(mirrored, d, q, Norm::l2, t).value() == half, tolerance(1e-9));
@@ -530,7 +530,7 @@ BOOST_AUTO_TEST_CASE(predictions_in_units) {
   // The same bar in other units: errors scale with stress and displacement.
   const double length = 0.3, f = 4e6, modulus = 2e9;
   const BarWave bar({modulus, 7.8e3, length, {true, {}}, {false, Traction::step(f)}}), plain = step_bar(400);
-  for (const auto q : {Quantity::stress, Quantity::displacement})
+  for (const auto q : {BarQuantity::stress, BarQuantity::displacement})
     BOOST_TEST(predicted_error(bar, fem(length / 400, 0.5), q, Norm::l2, 0.5 * length / bar.wave_speed()).value() /
                        bar.scale(q) ==
                    predicted_error(plain, fem(1, 0.5), q, Norm::l2, 200).value() / plain.scale(q),
@@ -540,29 +540,29 @@ BOOST_AUTO_TEST_CASE(predictions_in_units) {
 BOOST_AUTO_TEST_CASE(no_prediction_without_theory) {
   const auto d = fem(1, 0.5);
   const auto bar = step_bar(400);
-  const auto predicts = [&](const ExactSolution& s, const Discretisation& scheme, Quantity q, Norm norm, double t) {
+  const auto predicts = [&](const ExactSolution& s, const Discretisation& scheme, BarQuantity q, Norm norm, double t) {
     return predicted_error(s, scheme, q, norm, t).has_value();
   };
-  BOOST_TEST(predicts(bar, d, Quantity::stress, Norm::l2, 200));
-  BOOST_TEST(!predicts(bar, d, Quantity::stress, Norm::l1, 200));
-  BOOST_TEST(!predicts(bar, d, Quantity::stress, Norm::linf, 200));
-  BOOST_TEST(!predicts(bar, d, Quantity::velocity, Norm::l2, 200));
-  BOOST_TEST(!predicts(bar, d, Quantity::displacement, Norm::l1, 200));
-  BOOST_TEST(!predicts(bar, {Scheme::mpm_usl, 1, 0.5, {0.5}}, Quantity::displacement, Norm::linf, 200));
-  BOOST_TEST(!predicts(bar, fem(0.7, 0.5), Quantity::stress, Norm::l2, 200));  // no whole number of cells
+  BOOST_TEST(predicts(bar, d, BarQuantity::stress, Norm::l2, 200));
+  BOOST_TEST(!predicts(bar, d, BarQuantity::stress, Norm::l1, 200));
+  BOOST_TEST(!predicts(bar, d, BarQuantity::stress, Norm::linf, 200));
+  BOOST_TEST(!predicts(bar, d, BarQuantity::velocity, Norm::l2, 200));
+  BOOST_TEST(!predicts(bar, d, BarQuantity::displacement, Norm::l1, 200));
+  BOOST_TEST(!predicts(bar, {Scheme::mpm_usl, 1, 0.5, {0.5}}, BarQuantity::displacement, Norm::linf, 200));
+  BOOST_TEST(!predicts(bar, fem(0.7, 0.5), BarQuantity::stress, Norm::l2, 200));  // no whole number of cells
   const BarWave ramp({1, 1, 400, {true, {}}, {false, Traction::ramp(1, 10)}});
-  BOOST_TEST(!predicts(ramp, d, Quantity::stress, Norm::l2, 200));
+  BOOST_TEST(!predicts(ramp, d, BarQuantity::stress, Norm::l2, 200));
 
   const auto sup = [&](const BarWave& wave, double t) {
-    return predicts(wave, d, Quantity::displacement, Norm::linf, t);
+    return predicts(wave, d, BarQuantity::displacement, Norm::linf, t);
   };
   BOOST_TEST(sup(bar, 200));
   BOOST_TEST(!sup(bar, 5));    // just entered
   BOOST_TEST(!sup(bar, 395));  // about to be reflected
   BOOST_TEST(!sup(bar, 400));  // on the end, where no front is listed
   BOOST_TEST(!sup(bar, 405));
-  BOOST_TEST(!predicts(bar, fem(1, 1), Quantity::displacement, Norm::linf, 200));  // exact: no width
-  BOOST_TEST(predicted_error(bar, fem(1, 1), Quantity::stress, Norm::l2, 200).value() < 1e-10);
+  BOOST_TEST(!predicts(bar, fem(1, 1), BarQuantity::displacement, Norm::linf, 200));  // exact: no width
+  BOOST_TEST(predicted_error(bar, fem(1, 1), BarQuantity::stress, Norm::l2, 200).value() < 1e-10);
   const auto f = Traction::step(1);
   const BarWave meeting({1, 1, 400, {false, f}, {false, f}});
   BOOST_TEST(!sup(meeting, 200));
@@ -585,12 +585,12 @@ BOOST_AUTO_TEST_CASE(standing_mode_errors) {
     const auto check = [&](auto bar, auto position) {
       bar.fixed_left = left == 1;
       bar.fixed_right = true;
-      for (std::size_t i = 0; i < bar.v.size(); ++i) bar.v[i] = mode.at(Quantity::velocity, position(i), 0);
+      for (std::size_t i = 0; i < bar.v.size(); ++i) bar.v[i] = mode.at(BarQuantity::velocity, position(i), 0);
       const int steps = static_cast<int>(std::lround(6 * half_period / bar.d.courant));
       for (int i = 0; i < steps; ++i) bar.step();
       const double t = steps * bar.d.courant;
-      for (const auto q : {Quantity::stress, Quantity::displacement}) {
-        if (q == Quantity::stress && bar.d.scheme == Scheme::mpm_usf) continue;  // belongs to the step before
+      for (const auto q : {BarQuantity::stress, BarQuantity::displacement}) {
+        if (q == BarQuantity::stress && bar.d.scheme == Scheme::mpm_usf) continue;  // belongs to the step before
         for (const auto norm : {Norm::l1, Norm::l2, Norm::linf}) {
           const double predicted = predicted_error(mode, bar.d, q, norm, t).value();
           BOOST_TEST(predicted > 1e-4 * mode.scale(q));
@@ -615,17 +615,18 @@ BOOST_AUTO_TEST_CASE(standing_mode_predictions_in_the_limit) {
                         Discretisation{Scheme::mpm_usl, 1e-3, 0.5, {0.5}}}) {
     const double a = particle_filter(d), c = d.courant;
     const double phase = omega * t * std::pow(k * d.cell, 2) * (1 + 3 * a - c * c) / 24;
-    const auto predicted = [&](Quantity q, Norm norm, double time) {
+    const auto predicted = [&](BarQuantity q, Norm norm, double time) {
       return predicted_error(mode, d, q, norm, time).value();
     };
-    for (const auto q : {Quantity::stress, Quantity::displacement}) {
+    for (const auto q : {BarQuantity::stress, BarQuantity::displacement}) {
       BOOST_TEST(predicted(q, Norm::l2, t) == mode.scale(q) * phase / std::numbers::sqrt2, tolerance(1e-4));
       BOOST_TEST(predicted(q, Norm::l1, t) == mode.scale(q) * phase * 2 / pi, tolerance(1e-4));
       BOOST_TEST(predicted(q, Norm::linf, t) == mode.scale(q) * phase, tolerance(1e-4));
     }
     const double quarter = 3.5 * pi / omega;  // cos(ωt) = 0
-    BOOST_TEST(predicted(Quantity::velocity, Norm::linf, quarter) == mode.scale(Quantity::velocity) * phase * 3.5 / 3,
-               tolerance(1e-4));
+    BOOST_TEST(
+        predicted(BarQuantity::velocity, Norm::linf, quarter) == mode.scale(BarQuantity::velocity) * phase * 3.5 / 3,
+        tolerance(1e-4));
   }
 }
 
@@ -633,20 +634,20 @@ BOOST_AUTO_TEST_CASE(orders) {
   const auto bar = step_bar(1);
   const StandingMode mode({1, 1, 1, true, false, 1, 1});
   const BarWave ramp({1, 1, 1, {true, {}}, {false, Traction::ramp(1, 1)}});
-  BOOST_TEST(expected_order(bar, Scheme::fem, Quantity::stress, Norm::l1).value() == 0.5);
-  BOOST_TEST(expected_order(bar, Scheme::mpm_usl, Quantity::stress, Norm::l1).value() == 0.625);
-  BOOST_TEST(expected_order(bar, Scheme::mpm_musl, Quantity::stress, Norm::l2).value() == 1.0 / 3);
-  BOOST_TEST(expected_order(bar, Scheme::mpm_usf, Quantity::stress, Norm::linf).value() == 0);
-  BOOST_TEST(expected_order(bar, Scheme::fem, Quantity::displacement, Norm::l1).value() == 4.0 / 3);
-  BOOST_TEST(expected_order(bar, Scheme::fem, Quantity::displacement, Norm::l2).value() == 1);
-  BOOST_TEST(expected_order(bar, Scheme::fem, Quantity::displacement, Norm::linf).value() == 2.0 / 3);
-  BOOST_TEST(!expected_order(bar, Scheme::fem, Quantity::velocity, Norm::l2).has_value());
-  BOOST_TEST(!expected_order(ramp, Scheme::fem, Quantity::stress, Norm::l2).has_value());
-  BOOST_TEST(expected_order(mode, Scheme::fem, Quantity::velocity, Norm::l2).value() == 2);
+  BOOST_TEST(expected_order(bar, Scheme::fem, BarQuantity::stress, Norm::l1).value() == 0.5);
+  BOOST_TEST(expected_order(bar, Scheme::mpm_usl, BarQuantity::stress, Norm::l1).value() == 0.625);
+  BOOST_TEST(expected_order(bar, Scheme::mpm_musl, BarQuantity::stress, Norm::l2).value() == 1.0 / 3);
+  BOOST_TEST(expected_order(bar, Scheme::mpm_usf, BarQuantity::stress, Norm::linf).value() == 0);
+  BOOST_TEST(expected_order(bar, Scheme::fem, BarQuantity::displacement, Norm::l1).value() == 4.0 / 3);
+  BOOST_TEST(expected_order(bar, Scheme::fem, BarQuantity::displacement, Norm::l2).value() == 1);
+  BOOST_TEST(expected_order(bar, Scheme::fem, BarQuantity::displacement, Norm::linf).value() == 2.0 / 3);
+  BOOST_TEST(!expected_order(bar, Scheme::fem, BarQuantity::velocity, Norm::l2).has_value());
+  BOOST_TEST(!expected_order(ramp, Scheme::fem, BarQuantity::stress, Norm::l2).has_value());
+  BOOST_TEST(expected_order(mode, Scheme::fem, BarQuantity::velocity, Norm::l2).value() == 2);
 
   // predictions fall off at the expected orders
   for (const auto scheme : {Scheme::fem, Scheme::mpm_usl}) {
-    for (const auto q : {Quantity::stress, Quantity::displacement}) {
+    for (const auto q : {BarQuantity::stress, BarQuantity::displacement}) {
       const auto at = [&](double cells) {
         return predicted_error(bar, {scheme, 1 / cells, 0.5, {0.5}}, q, Norm::l2, 0.5).value();
       };

@@ -9,6 +9,8 @@
 #include <random>
 #include <stdexcept>
 
+BOOST_AUTO_TEST_SUITE(failure_point)
+
 namespace {
 
 namespace analytic = diptych::analytic;
@@ -53,12 +55,10 @@ void for_strains(const F& f) {
 }
 
 FailurePoint at(const Strain& e, double V_d, double f_max = 1) {
-  return failure_point(K, G, e.xx, e.yy, e.xy, V_d, f_max);
+  return analytic::failure_point(K, G, e.xx, e.yy, e.xy, V_d, f_max);
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(failure_point)
 
 BOOST_AUTO_TEST_CASE(table_of_the_reconstruction) {
   struct Line {

@@ -8,6 +8,8 @@
 #include <random>
 #include <stdexcept>
 
+BOOST_AUTO_TEST_SUITE(grid_contact)
+
 namespace {
 
 using diptych::analytic::Approach;
@@ -23,8 +25,6 @@ double cells_apart(const Approach& a, double t) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(grid_contact)
 
 // Both reach the faces beside the node at once, 2h apart. Centred particles stand h/2 behind their ends: the ends are
 // still h apart, a time h/(2v₀) early.

@@ -14,17 +14,19 @@
 #include "analytic/diffusion_exact.hpp"
 #include "analytic/plane_modes.hpp"
 
+BOOST_AUTO_TEST_SUITE(plane_discrete)
+
 namespace {
 
 using namespace diptych::analytic;
 using boost::test_tools::tolerance;
 using Method = PlaneDiscretisation::Method;
-using Quantity = PlaneQuantity;
+using BarQuantity = PlaneQuantity;
 using Pair = std::array<double, 2>;
 using Field = std::function<Pair(double, double)>;
 constexpr double pi = std::numbers::pi;
 constexpr Method all_methods[] = {Method::fem, Method::usf, Method::musl, Method::usl};
-constexpr Quantity mechanical[] = {Quantity::displacement, Quantity::velocity, Quantity::stress};
+constexpr BarQuantity mechanical[] = {BarQuantity::displacement, BarQuantity::velocity, BarQuantity::stress};
 const std::vector<double> two{0.25, 0.75};
 
 struct Sample {
@@ -97,15 +99,15 @@ class PlainFem {
     }
   }
 
-  std::vector<Sample> sample(Quantity q) const {
+  std::vector<Sample> sample(BarQuantity q) const {
     std::vector<Sample> out;
-    if (q == Quantity::stress) {
+    if (q == BarQuantity::stress) {
       for (const auto& t : triangle_) {
         out.push_back({(x_[t[0]][0] + x_[t[1]][0] + x_[t[2]][0]) / 3, (x_[t[0]][1] + x_[t[1]][1] + x_[t[2]][1]) / 3,
                        area(), stress(t)});
       }
     } else {
-      const auto& f = q == Quantity::displacement ? u_ : v_;
+      const auto& f = q == BarQuantity::displacement ? u_ : v_;
       for (std::size_t n = 0; n < x_.size(); ++n) out.push_back({x_[n][0], x_[n][1], mass_[n], {f[n][0], f[n][1], 0}});
     }
     return out;
@@ -206,13 +208,13 @@ class PlainMpm {
     if (!usf) strain(v, r_.dt);
   }
 
-  std::vector<Sample> sample(Quantity q) const {
+  std::vector<Sample> sample(BarQuantity q) const {
     std::vector<Sample> out;
     for (const auto& p : particle_) {
-      const auto& f = q == Quantity::displacement ? p.u : p.v;
+      const auto& f = q == BarQuantity::displacement ? p.u : p.v;
       out.push_back({p.x[0], p.x[1], volume(),
-                     q == Quantity::stress ? hooke(r_.medium, p.strain[0], p.strain[1], p.strain[2])
-                                           : std::array<double, 3>{f[0], f[1], 0}});
+                     q == BarQuantity::stress ? hooke(r_.medium, p.strain[0], p.strain[1], p.strain[2])
+                                              : std::array<double, 3>{f[0], f[1], 0}});
     }
     return out;
   }
@@ -261,7 +263,7 @@ class PlainMpm {
   std::vector<double> mass_;
 };
 
-double measured(const std::vector<Sample>& samples, const PlaneSolution& exact, Quantity q, int norm, double t) {
+double measured(const std::vector<Sample>& samples, const PlaneSolution& exact, BarQuantity q, int norm, double t) {
   double sum = 0, weight = 0, largest = 0;
   for (const auto& s : samples) {
     const auto e = exact.at(q, s.x, s.y, t);
@@ -274,10 +276,10 @@ double measured(const std::vector<Sample>& samples, const PlaneSolution& exact, 
   return norm == 0 ? largest : norm == 1 ? sum / weight : std::sqrt(sum / weight);
 }
 
-double time_of(Method method, Quantity q, double steps, double dt) {
+double time_of(Method method, BarQuantity q, double steps, double dt) {
   const bool usf = method == Method::usf;
-  if (q == Quantity::displacement) return (usf ? steps + 0.5 : steps) * dt;
-  if (q == Quantity::velocity) return (usf ? steps : steps - 0.5) * dt;
+  if (q == BarQuantity::displacement) return (usf ? steps + 0.5 : steps) * dt;
+  if (q == BarQuantity::velocity) return (usf ? steps : steps - 0.5) * dt;
   return (usf ? steps - 0.5 : steps) * dt;
 }
 
@@ -302,14 +304,14 @@ void compare(const PlaneMode& mode, bool rollers, Method method, const std::vect
   const double hx = mode.width() / nx, hy = mode.height() / ny;
   const double dt = courant * std::min(hx, hy) / mode.medium().pressure_speed();
   const Rectangle r{mode.medium(), nx, ny, hx, hy, dt, rollers};
-  const auto start = [&](Quantity q) {
+  const auto start = [&](BarQuantity q) {
     return [&mode, q](double x, double y) {
       const auto v = mode.at(q, x, y, 0);
       return Pair{v[0], v[1]};
     };
   };
   const PlaneDiscretisation d{method, hx, hy, dt, positions};
-  const auto u0 = start(Quantity::displacement), v0 = start(Quantity::velocity);
+  const auto u0 = start(BarQuantity::displacement), v0 = start(BarQuantity::velocity);
   if (method == Method::fem) {
     compare(PlainFem(r, u0, v0), mode, d, steps, f);
   } else {
@@ -324,7 +326,7 @@ template <class Body>
 bool stable(Body&& body) {
   for (int n = 0; n < 600; ++n) body.step(n == 0);
   double largest = 0;
-  for (const auto& s : body.sample(Quantity::velocity))
+  for (const auto& s : body.sample(BarQuantity::velocity))
     largest = std::max({largest, std::abs(s.value[0]), std::abs(s.value[1])});
   return largest < 1e3;
 }
@@ -355,13 +357,11 @@ double bisected(const PlaneMedium& medium, Method method, const std::vector<doub
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(plane_discrete)
-
 BOOST_AUTO_TEST_CASE(modes_on_rollers_are_predicted_to_round_off) {
   for (const bool from_rest : {true, false}) {
     for (const auto method : all_methods) {
       const auto exact = [&](const PlaneMode& mode, const std::vector<double>& positions, int nx, int ny, int steps) {
-        compare(mode, true, method, positions, nx, ny, 0.45, steps, [&](Quantity q, int, double m, double p) {
+        compare(mode, true, method, positions, nx, ny, 0.45, steps, [&](BarQuantity q, int, double m, double p) {
           BOOST_TEST(std::abs(m - p) <= 1e-9 * p + 1e-12 * mode.scale(q), m / p);
         });
       };
@@ -376,7 +376,7 @@ BOOST_AUTO_TEST_CASE(modes_on_rollers_are_predicted_to_round_off) {
   }
   for (const auto method : all_methods) {
     const RollerMode mode({strain, 1, 1, 1e-3, true});
-    compare(mode, true, method, two, 32, 32, 0.45, 100, [&](Quantity q, int, double m, double p) {
+    compare(mode, true, method, two, 32, 32, 0.45, 100, [&](BarQuantity q, int, double m, double p) {
       BOOST_TEST(std::abs(m - p) <= 1e-9 * p + 1e-12 * mode.scale(q), m / p);
     });
   }
@@ -388,13 +388,13 @@ BOOST_AUTO_TEST_CASE(lame_prediction_is_asymptotic) {
   // after some periods. Here 4 1/4: FEM 1.005, 1.004; MPM 1.14 to 1.17, 1.07 to 1.09.
   for (const auto method : all_methods) {
     for (const bool from_rest : {true, false}) {
-      const auto q = from_rest ? Quantity::displacement : Quantity::velocity;
+      const auto q = from_rest ? BarQuantity::displacement : BarQuantity::velocity;
       std::vector<double> excess;
       for (const int n : {16, 32}) {
         const LameMode mode({strain, 1, 1, 1e-3, from_rest});
         const double dt = 0.45 / n / strain.pressure_speed();
         const int steps = static_cast<int>(std::lround(4.25 * 2 * pi / mode.wave().frequency / dt));
-        compare(mode, false, method, two, n, n, 0.45, steps, [&](Quantity asked, int norm, double m, double p) {
+        compare(mode, false, method, two, n, n, 0.45, steps, [&](BarQuantity asked, int norm, double m, double p) {
           if (asked == q && norm == 2) excess.push_back(m / p - 1);
         });
       }
@@ -435,7 +435,7 @@ BOOST_AUTO_TEST_CASE(orders_and_constants) {
       double phase = 2 * std::asin(std::sqrt(square * kept) * dt / 2);
       if (method == Method::usl) phase = std::acos(trace / 2 / std::sqrt(det));
       const double expected = std::abs(std::sin(phase * t / dt)) * 1e-3 / std::numbers::sqrt2;
-      const auto error = predicted_error(mode, d, Quantity::displacement, 2, t);
+      const auto error = predicted_error(mode, d, BarQuantity::displacement, 2, t);
       BOOST_TEST_REQUIRE(error.has_value());
       // Other errors at this time: the optical branch of FEM rings, O(h²) of what there is; USF and MUSL move particles
       // by velocities other than those that strain them, O(h) of what there is.
@@ -517,7 +517,7 @@ BOOST_AUTO_TEST_CASE(nothing_is_said_without_theory) {
   const RollerMode mode({strain, 1, 2, 1e-3, true});
   const PlaneDiscretisation d{Method::musl, 0.125, 0.125, 1e-6, two};
   const auto predicted = [&](const PlaneSolution& s, PlaneDiscretisation changed) {
-    return predicted_error(s, changed, Quantity::displacement, 2, 0).has_value();
+    return predicted_error(s, changed, BarQuantity::displacement, 2, 0).has_value();
   };
   BOOST_TEST(predicted(mode, d));
   BOOST_TEST(!predicted(StandingSWave({strain, 1, 1, 2, 1e-3, true}), d));
@@ -528,8 +528,8 @@ BOOST_AUTO_TEST_CASE(nothing_is_said_without_theory) {
   other.hx = 0.3;
   BOOST_TEST(!predicted(mode, other));
   BOOST_TEST(!predicted(RollerMode({strain, 1, 8, 1e-3, true}), d));  // the grid cannot see it
-  BOOST_TEST(!predicted_error(mode, d, Quantity::concentration, 2, 0));
-  BOOST_TEST(!predicted_error(CosineMode({1, 1, 1, 1, 0, 1, 1}), d, Quantity::concentration, 2, 0));
+  BOOST_TEST(!predicted_error(mode, d, BarQuantity::concentration, 2, 0));
+  BOOST_TEST(!predicted_error(CosineMode({1, 1, 1, 1, 0, 1, 1}), d, BarQuantity::concentration, 2, 0));
 }
 
 BOOST_AUTO_TEST_CASE(bad_parameters_are_refused) {
@@ -538,7 +538,7 @@ BOOST_AUTO_TEST_CASE(bad_parameters_are_refused) {
   const PlaneDiscretisation d{Method::musl, 0.125, 0.125, 1e-6, two};
   const auto refused = [&](const PlaneDiscretisation& wrong) {
     BOOST_CHECK_THROW(plane_stability_limit(strain, wrong), std::invalid_argument);
-    BOOST_CHECK_THROW(predicted_error(mode, wrong, Quantity::stress, 2, 1e-6), std::invalid_argument);
+    BOOST_CHECK_THROW(predicted_error(mode, wrong, BarQuantity::stress, 2, 1e-6), std::invalid_argument);
   };
   refused({Method::fem, 0, 1, 1e-6, {}});
   refused({Method::fem, 1, nan, 1e-6, {}});
@@ -550,15 +550,15 @@ BOOST_AUTO_TEST_CASE(bad_parameters_are_refused) {
   BOOST_CHECK_THROW(free_stability_limit(strain, d, 30, 30), std::invalid_argument);
   auto still = d;
   still.time_step = 0;
-  BOOST_CHECK_THROW(predicted_error(mode, still, Quantity::stress, 2, 1e-6), std::invalid_argument);
-  BOOST_CHECK_THROW(predicted_error(mode, d, Quantity::stress, 3, 1e-6), std::invalid_argument);
+  BOOST_CHECK_THROW(predicted_error(mode, still, BarQuantity::stress, 2, 1e-6), std::invalid_argument);
+  BOOST_CHECK_THROW(predicted_error(mode, d, BarQuantity::stress, 3, 1e-6), std::invalid_argument);
   // stress stands at whole steps, velocity between them
-  BOOST_CHECK_THROW(predicted_error(mode, d, Quantity::stress, 2, 1.5e-6), std::invalid_argument);
-  BOOST_CHECK_THROW(predicted_error(mode, d, Quantity::velocity, 2, 2e-6), std::invalid_argument);
-  BOOST_CHECK_THROW(predicted_error(mode, d, Quantity::stress, 2, nan), std::invalid_argument);
-  BOOST_TEST(predicted_error(mode, d, Quantity::velocity, 2, 2.5e-6).has_value());
-  BOOST_TEST(*predicted_error(mode, d, Quantity::displacement, 2, 0) == 0);
-  BOOST_TEST(*predicted_error(mode, d, Quantity::velocity, 2, 0) == 0);
+  BOOST_CHECK_THROW(predicted_error(mode, d, BarQuantity::stress, 2, 1.5e-6), std::invalid_argument);
+  BOOST_CHECK_THROW(predicted_error(mode, d, BarQuantity::velocity, 2, 2e-6), std::invalid_argument);
+  BOOST_CHECK_THROW(predicted_error(mode, d, BarQuantity::stress, 2, nan), std::invalid_argument);
+  BOOST_TEST(predicted_error(mode, d, BarQuantity::velocity, 2, 2.5e-6).has_value());
+  BOOST_TEST(*predicted_error(mode, d, BarQuantity::displacement, 2, 0) == 0);
+  BOOST_TEST(*predicted_error(mode, d, BarQuantity::velocity, 2, 0) == 0);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -11,11 +11,13 @@
 
 #include "tests/spoiled_plane.hpp"
 
+BOOST_AUTO_TEST_SUITE(plane_modes)
+
 namespace {
 
 using namespace diptych::analytic;
 using boost::test_tools::tolerance;
-using Quantity = PlaneQuantity;
+using BarQuantity = PlaneQuantity;
 constexpr double pi = std::numbers::pi;
 
 using Spoiled = diptych::tests::SpoiledPlane;
@@ -41,8 +43,6 @@ void for_all_modes(const F& f) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(plane_modes)
-
 BOOST_AUTO_TEST_CASE(media) {
   BOOST_TEST(strain.mu == 50e9 / 2.6, tolerance(1e-15));
   BOOST_TEST(strain.lambda == 0.3 * 50e9 / (1.3 * 0.4), tolerance(1e-15));
@@ -63,32 +63,32 @@ BOOST_AUTO_TEST_CASE(known_values) {
   const double side = 2, k = pi / side;
   const LameMode lame({medium, side, 1, 0.1, true});
   BOOST_TEST(lame.wave().frequency == std::sqrt(2.0) * k * std::sqrt(0.5), tolerance(1e-15));
-  BOOST_TEST(lame.at(Quantity::displacement, 0, 1, 0)[0] == 0.1, tolerance(1e-15));
-  BOOST_TEST(lame.at(Quantity::displacement, 1, 0, 0)[1] == -0.1, tolerance(1e-15));
-  BOOST_TEST(lame.at(Quantity::stress, 1, 1, 0)[0] == -2 * 0.1 * k, tolerance(1e-15));
-  BOOST_TEST(lame.at(Quantity::stress, 1, 1, 0)[1] == 2 * 0.1 * k, tolerance(1e-15));
+  BOOST_TEST(lame.at(BarQuantity::displacement, 0, 1, 0)[0] == 0.1, tolerance(1e-15));
+  BOOST_TEST(lame.at(BarQuantity::displacement, 1, 0, 0)[1] == -0.1, tolerance(1e-15));
+  BOOST_TEST(lame.at(BarQuantity::stress, 1, 1, 0)[0] == -2 * 0.1 * k, tolerance(1e-15));
+  BOOST_TEST(lame.at(BarQuantity::stress, 1, 1, 0)[1] == 2 * 0.1 * k, tolerance(1e-15));
   const RollerMode roller({medium, side, 1, 0.1, false});
   BOOST_TEST(roller.wave().frequency == std::sqrt(2.0) * k * std::sqrt(1.75), tolerance(1e-15));
   const double quarter = pi / 2 / roller.wave().frequency;
-  BOOST_TEST(roller.at(Quantity::displacement, 1, 0, quarter)[0] == 0.1, tolerance(1e-14));
-  BOOST_TEST(roller.at(Quantity::displacement, 0, 1, quarter)[1] == 0.1, tolerance(1e-14));
-  BOOST_TEST(roller.at(Quantity::velocity, 1, 0, 0)[0] == 0.1 * roller.wave().frequency, tolerance(1e-15));
-  BOOST_TEST(roller.at(Quantity::stress, 0, 0, quarter)[0] == (2 * 1.5 + 2) * 0.1 * k, tolerance(1e-14));
-  BOOST_TEST(roller.at(Quantity::stress, 1, 1, quarter)[2] == -2 * 0.1 * k, tolerance(1e-14));
+  BOOST_TEST(roller.at(BarQuantity::displacement, 1, 0, quarter)[0] == 0.1, tolerance(1e-14));
+  BOOST_TEST(roller.at(BarQuantity::displacement, 0, 1, quarter)[1] == 0.1, tolerance(1e-14));
+  BOOST_TEST(roller.at(BarQuantity::velocity, 1, 0, 0)[0] == 0.1 * roller.wave().frequency, tolerance(1e-15));
+  BOOST_TEST(roller.at(BarQuantity::stress, 0, 0, quarter)[0] == (2 * 1.5 + 2) * 0.1 * k, tolerance(1e-14));
+  BOOST_TEST(roller.at(BarQuantity::stress, 1, 1, quarter)[2] == -2 * 0.1 * k, tolerance(1e-14));
   const StandingPWave p({medium, side, 0.5, 3, 0.1, true});
   BOOST_TEST(p.wave().frequency == 3 * k * std::sqrt(1.75), tolerance(1e-15));
-  BOOST_TEST(p.at(Quantity::stress, 0, 0.2, 0)[0] == 3.5 * 0.3 * k, tolerance(1e-15));
-  BOOST_TEST(p.at(Quantity::stress, 0, 0.2, 0)[1] == 1.5 * 0.3 * k, tolerance(1e-15));
+  BOOST_TEST(p.at(BarQuantity::stress, 0, 0.2, 0)[0] == 3.5 * 0.3 * k, tolerance(1e-15));
+  BOOST_TEST(p.at(BarQuantity::stress, 0, 0.2, 0)[1] == 1.5 * 0.3 * k, tolerance(1e-15));
   const StandingSWave s({medium, side, 0.5, 3, 0.1, true});
   BOOST_TEST(s.wave().frequency == 3 * k * std::sqrt(0.5), tolerance(1e-15));
-  BOOST_TEST(s.at(Quantity::displacement, 0, 0.3, 0)[1] == 0.1, tolerance(1e-15));
-  BOOST_TEST(s.at(Quantity::stress, 1.0 / 3 * side, 0.3, 0)[2] == 0.0 - 0.3 * k * std::sin(pi), tolerance(1e-13));
-  BOOST_TEST(s.at(Quantity::stress, side / 6, 0.3, 0)[2] == -0.3 * k, tolerance(1e-14));
+  BOOST_TEST(s.at(BarQuantity::displacement, 0, 0.3, 0)[1] == 0.1, tolerance(1e-15));
+  BOOST_TEST(s.at(BarQuantity::stress, 1.0 / 3 * side, 0.3, 0)[2] == 0.0 - 0.3 * k * std::sin(pi), tolerance(1e-13));
+  BOOST_TEST(s.at(BarQuantity::stress, side / 6, 0.3, 0)[2] == -0.3 * k, tolerance(1e-14));
 }
 
 BOOST_AUTO_TEST_CASE(scales_are_the_largest_values) {
   for_all_modes([](const PlaneMode& mode, const PlaneProblem&) {
-    for (const auto q : {Quantity::displacement, Quantity::velocity, Quantity::stress}) {
+    for (const auto q : {BarQuantity::displacement, BarQuantity::velocity, BarQuantity::stress}) {
       double largest = 0;
       for (int i = 0; i <= 12; ++i) {
         for (int j = 0; j <= 12; ++j) {
@@ -101,9 +101,9 @@ BOOST_AUTO_TEST_CASE(scales_are_the_largest_values) {
       }
       BOOST_TEST(largest == mode.scale(q), tolerance(1e-12));
     }
-    BOOST_TEST(!mode.gives(Quantity::concentration));
-    BOOST_CHECK_THROW(mode.scale(Quantity::concentration), std::invalid_argument);
-    BOOST_CHECK_THROW(mode.at(Quantity::concentration, 0, 0, 0), std::invalid_argument);
+    BOOST_TEST(!mode.gives(BarQuantity::concentration));
+    BOOST_CHECK_THROW(mode.scale(BarQuantity::concentration), std::invalid_argument);
+    BOOST_CHECK_THROW(mode.at(BarQuantity::concentration, 0, 0, 0), std::invalid_argument);
   });
 }
 
@@ -111,11 +111,11 @@ BOOST_AUTO_TEST_CASE(lames_mode_has_no_part_of_lambda_and_no_shear) {
   const LameMode a({strain, 1, 2, 1e-3, true}), b({stress, 1, 2, 1e-3, true});
   for (int i = 0; i < 20; ++i) {
     const double x = std::fmod(0.37 * i, 1), y = std::fmod(0.71 * i, 1), t = 1e-5 * i;
-    for (const auto q : {Quantity::displacement, Quantity::velocity, Quantity::stress}) {
+    for (const auto q : {BarQuantity::displacement, BarQuantity::velocity, BarQuantity::stress}) {
       const auto one = a.at(q, x, y, t), other = b.at(q, x, y, t);
       for (const std::size_t c : {0, 1, 2}) BOOST_TEST(std::abs(one[c] - other[c]) <= 1e-14 * a.scale(q));
     }
-    BOOST_TEST(a.at(Quantity::stress, x, y, t)[2] == 0);
+    BOOST_TEST(a.at(BarQuantity::stress, x, y, t)[2] == 0);
   }
 }
 
@@ -127,7 +127,7 @@ BOOST_AUTO_TEST_CASE(energy_is_constant) {
       for (int i = 0; i < 16; ++i) {
         for (int j = 0; j < 16; ++j) {  // the midpoint rule is exact for these trigonometric polynomials
           const double x = mode.width() * (i + 0.5) / 16, y = mode.height() * (j + 0.5) / 16;
-          const auto v = mode.at(Quantity::velocity, x, y, t), s = mode.at(Quantity::stress, x, y, t);
+          const auto v = mode.at(BarQuantity::velocity, x, y, t), s = mode.at(BarQuantity::stress, x, y, t);
           const double mean = (s[0] + s[1]) / 2, half = (s[0] - s[1]) / 2;
           sum += density * (v[0] * v[0] + v[1] * v[1]) / 2 + mean * mean / (2 * (lambda + mu)) +
                  (half * half + s[2] * s[2]) / (2 * mu);
@@ -157,10 +157,10 @@ BOOST_AUTO_TEST_CASE(bad_parameters_are_refused) {
   refused({{1, 1, 1}, 1, 1, nan});
   BOOST_CHECK_THROW(StandingPWave({{1, 1, 1}, 1, -1, 1, 1}), std::invalid_argument);
   const RollerMode mode({{1, 1, 1}, 1, 1, 1});
-  BOOST_CHECK_THROW(mode.at(Quantity::stress, -0.1, 0.5, 0), std::domain_error);
-  BOOST_CHECK_THROW(mode.at(Quantity::stress, 0.5, 1.1, 0), std::domain_error);
-  BOOST_CHECK_THROW(mode.at(Quantity::stress, 0.5, nan, 0), std::domain_error);
-  BOOST_CHECK_THROW(mode.at(Quantity::stress, 0.5, 0.5, nan), std::domain_error);
+  BOOST_CHECK_THROW(mode.at(BarQuantity::stress, -0.1, 0.5, 0), std::domain_error);
+  BOOST_CHECK_THROW(mode.at(BarQuantity::stress, 0.5, 1.1, 0), std::domain_error);
+  BOOST_CHECK_THROW(mode.at(BarQuantity::stress, 0.5, nan, 0), std::domain_error);
+  BOOST_CHECK_THROW(mode.at(BarQuantity::stress, 0.5, 0.5, nan), std::domain_error);
   BOOST_CHECK_THROW(self_test(mode, RollerMode({{1, 1, 1}, 1, 1, 1}).problem(), 0), std::invalid_argument);
 }
 
@@ -193,23 +193,23 @@ BOOST_AUTO_TEST_CASE(self_test_fails_wrong_modes) {
     const PlaneMode& other = free ? static_cast<const PlaneMode&>(roller) : lame;
     const double period = 2 * pi / mode.wave().frequency;
     const auto residual = [&](const PlaneSolution& wrong) { return self_test(wrong, problem, 2 * period); };
-    const auto scaled = [&](Quantity q, std::size_t component, double factor) {
-      return residual(Spoiled([=, &mode](Quantity asked, double x, double y, double t) {
+    const auto scaled = [&](BarQuantity q, std::size_t component, double factor) {
+      return residual(Spoiled([=, &mode](BarQuantity asked, double x, double y, double t) {
         auto value = mode.at(asked, x, y, t);
         if (asked == q) value[component] *= factor;
         return value;
       }));
     };
-    BOOST_TEST(pass(scaled(Quantity::stress, 0, 1)));
+    BOOST_TEST(pass(scaled(BarQuantity::stress, 0, 1)));
     for (const std::size_t c : {0, 1}) {
-      BOOST_TEST(scaled(Quantity::stress, c, 1.01).constitutive > 1e-3);
-      BOOST_TEST(scaled(Quantity::stress, c, 1.01).momentum > 1e-3);
-      BOOST_TEST(scaled(Quantity::velocity, c, 1.01).compatibility > 1e-3);
-      BOOST_TEST(scaled(Quantity::velocity, c, 1.01).momentum > 1e-3);
-      BOOST_TEST(scaled(Quantity::displacement, c, 1.01).initial > 1e-3);
-      BOOST_TEST(scaled(Quantity::displacement, c, 1.01).compatibility > 1e-3);
+      BOOST_TEST(scaled(BarQuantity::stress, c, 1.01).constitutive > 1e-3);
+      BOOST_TEST(scaled(BarQuantity::stress, c, 1.01).momentum > 1e-3);
+      BOOST_TEST(scaled(BarQuantity::velocity, c, 1.01).compatibility > 1e-3);
+      BOOST_TEST(scaled(BarQuantity::velocity, c, 1.01).momentum > 1e-3);
+      BOOST_TEST(scaled(BarQuantity::displacement, c, 1.01).initial > 1e-3);
+      BOOST_TEST(scaled(BarQuantity::displacement, c, 1.01).compatibility > 1e-3);
     }
-    if (!free) BOOST_TEST(scaled(Quantity::stress, 2, 1.01).constitutive > 1e-3);  // Lamé's has no shear stress
+    if (!free) BOOST_TEST(scaled(BarQuantity::stress, 2, 1.01).constitutive > 1e-3);  // Lamé's has no shear stress
     BOOST_TEST(residual(other).boundary > 0.1);
     BOOST_TEST(residual(other).initial > 0.1);
     const auto of = [&](SquareMode changed) {
@@ -232,13 +232,13 @@ BOOST_AUTO_TEST_CASE(self_test_fails_wrong_modes) {
       wrong.medium.lambda *= 1.01;
       BOOST_TEST(of(wrong).constitutive > 1e-3);
     }
-    const auto turned = residual(Spoiled([&](Quantity q, double x, double y, double t) {
+    const auto turned = residual(Spoiled([&](BarQuantity q, double x, double y, double t) {
       const auto value = mode.at(q, y, x, t);  // both modes are their own mirror image in x = y, with a sign for Lamé's
-      return q == Quantity::stress ? std::array<double, 3>{value[1], value[0], value[2]}
-                                   : std::array<double, 3>{value[1], value[0], 0};
+      return q == BarQuantity::stress ? std::array<double, 3>{value[1], value[0], value[2]}
+                                      : std::array<double, 3>{value[1], value[0], 0};
     }));
     BOOST_TEST(pass(turned) == !free);
-    BOOST_TEST(std::isnan(residual(Spoiled([](Quantity, double, double, double) {
+    BOOST_TEST(std::isnan(residual(Spoiled([](BarQuantity, double, double, double) {
                             return std::array<double, 3>{std::nan(""), 0, 0};
                           })).worst()));
     auto tiny = problem;

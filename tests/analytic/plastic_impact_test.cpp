@@ -15,6 +15,8 @@
 #include "analytic/bar_wave.hpp"
 #include "tests/spoiled.hpp"
 
+BOOST_AUTO_TEST_SUITE(plastic_impact)
+
 namespace {
 
 using namespace diptych::analytic;
@@ -46,7 +48,7 @@ double integral(const PlasticImpact& two, double t, const std::function<double(d
       constexpr int cells = 7;  // more than one: pieces that are not constant would show
       for (int j = 0; j < cells; ++j) {
         const double width = (cuts[i] - cuts[i - 1]) / cells, x = cuts[i - 1] + (j + 0.5) * width;
-        sum += width * f(two.at(Quantity::velocity, x, t), two.at(Quantity::stress, x, t));
+        sum += width * f(two.at(BarQuantity::velocity, x, t), two.at(BarQuantity::stress, x, t));
       }
     }
   }
@@ -78,7 +80,7 @@ Thrown thrown_bar(const PlasticImpact& exact, int cells) {
       const double trial = p.youngs_modulus * ((u[i + 1] - u[i]) / h - plastic[i]);
       sigma[i] = std::clamp(trial, -p.yield_stress, p.yield_stress);
       plastic[i] += (trial - sigma[i]) / p.youngs_modulus;
-      const double there = exact.at(Quantity::stress, h * (static_cast<double>(i) + 0.5), wall + (step + 1) * dt);
+      const double there = exact.at(BarQuantity::stress, h * (static_cast<double>(i) + 0.5), wall + (step + 1) * dt);
       error += std::abs(sigma[i] - there) / cells;
     }
     result.stress_error += error / steps;
@@ -88,8 +90,6 @@ Thrown thrown_bar(const PlasticImpact& exact, int cells) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(plastic_impact)
 
 BOOST_AUTO_TEST_CASE(known_impacts) {
   const auto known = [](double speed, double contact, double rebound) {
@@ -122,9 +122,9 @@ BOOST_AUTO_TEST_CASE(the_recurrence_sums_up_to_the_closed_form) {
 BOOST_AUTO_TEST_CASE(an_impact_that_yields_step_by_step) {
   const auto two = impact(3.1, 0);  // arrives at 3.1, 1.1, −0.9: flows twice, then leaves
   const auto state = [&](double depth, double t, double v, double sigma) {
-    check(two.at(Quantity::velocity, 0.5 - depth, t), v, 1);
-    check(two.at(Quantity::velocity, 0.5 + depth, t), depth > 0 ? -v : v, 1);
-    for (const double x : {0.5 - depth, 0.5 + depth}) check(two.at(Quantity::stress, x, t), sigma, 100);
+    check(two.at(BarQuantity::velocity, 0.5 - depth, t), v, 1);
+    check(two.at(BarQuantity::velocity, 0.5 + depth, t), depth > 0 ? -v : v, 1);
+    for (const double x : {0.5 - depth, 0.5 + depth}) check(two.at(BarQuantity::stress, x, t), sigma, 100);
   };
   state(0, 0.004, 2.1, -100);  // the face flows
   state(0.39, 0.004, 2.1, -100);
@@ -143,8 +143,8 @@ BOOST_AUTO_TEST_CASE(an_impact_that_yields_step_by_step) {
   check(two.plastic_strain(0.015), 2.1 * 0.01 + 0.1 * 0.005, 1);
   check(two.plastic_strain(1), 2.2 * 0.01, 1);
   check(two.plastic_work(1), 2 * 100 * 2.2 * 0.01, 1);
-  check(two.at(Quantity::displacement, 0.5, 0.025), 2.2 * 0.01 - 0.9 * 0.005, 1);
-  check(two.at(Quantity::displacement, 0, 0.025), 2.2 * 0.01 - 0.9 * 0.005, 1);  // and no strain is left elsewhere
+  check(two.at(BarQuantity::displacement, 0.5, 0.025), 2.2 * 0.01 - 0.9 * 0.005, 1);
+  check(two.at(BarQuantity::displacement, 0, 0.025), 2.2 * 0.01 - 0.9 * 0.005, 1);  // and no strain is left elsewhere
 }
 
 BOOST_AUTO_TEST_CASE(fronts_are_listed) {
@@ -199,12 +199,12 @@ BOOST_AUTO_TEST_CASE(plastic_strain_is_what_flowed_through_the_face) {
     constexpr int per_period = 100;
     for (int i = 0; i < 8 * per_period; ++i) {
       const double dt = period / per_period, t = begin + (i + 0.5) * dt;
-      const double closing = (two.at(Quantity::velocity, 0.5, t) - two.at(Quantity::velocity, 1, t)) / 2;
+      const double closing = (two.at(BarQuantity::velocity, 0.5, t) - two.at(BarQuantity::velocity, 1, t)) / 2;
       if (t < two.release_time()) flowed += closing * dt;
       check(two.plastic_strain(begin + (i + 1) * dt), flowed, speed * period);
       // in contact the face is at the wall, 0.25 from where it started, and the material next to it ahead by the strain
       if (t >= two.release_time()) continue;
-      const double ahead = two.at(Quantity::displacement, 0.5, t) - 0.25 * t - 0.25;
+      const double ahead = two.at(BarQuantity::displacement, 0.5, t) - 0.25 * t - 0.25;
       check(two.plastic_strain(t), ahead, speed * period);
     }
     BOOST_TEST(two.plastic_strain(begin - 0.01) == 0);
@@ -218,7 +218,7 @@ BOOST_AUTO_TEST_CASE(it_is_an_elastic_bar_under_the_force_of_the_wall) {
     Traction wall;
     double last = 0;
     for (int k = 0; k < 6; ++k) {
-      const double stress = two.at(Quantity::stress, 0.5, (k + 0.5) * period);
+      const double stress = two.at(BarQuantity::stress, 0.5, (k + 0.5) * period);
       wall.kinks.push_back({k * period, stress - last, 0});
       last = stress;
     }
@@ -227,9 +227,10 @@ BOOST_AUTO_TEST_CASE(it_is_an_elastic_bar_under_the_force_of_the_wall) {
     for (int i = 1; i < 1000; ++i) {
       const double x = 0.5 * std::fmod(i * 0.7548776662466927, 1),
                    t = 8 * period * std::fmod(i * 0.5698402909980532, 1);
-      check(two.at(Quantity::stress, x, t), bar.at(Quantity::stress, x, t), 100);
-      check(two.at(Quantity::velocity, x, t), speed + bar.at(Quantity::velocity, x, t), speed);
-      check(two.at(Quantity::displacement, x, t), speed * t + bar.at(Quantity::displacement, x, t), speed * period);
+      check(two.at(BarQuantity::stress, x, t), bar.at(BarQuantity::stress, x, t), 100);
+      check(two.at(BarQuantity::velocity, x, t), speed + bar.at(BarQuantity::velocity, x, t), speed);
+      check(two.at(BarQuantity::displacement, x, t), speed * t + bar.at(BarQuantity::displacement, x, t),
+            speed * period);
     }
   }
 }
@@ -239,8 +240,8 @@ BOOST_AUTO_TEST_CASE(displacement_is_continuous_where_waves_start_and_return) {
     const auto two = impact(speed, 0);
     for (const double halves : {1.0, 2.0, 3.0, 4.0, 6.0, 12.0, 14.0})
       for (const double x : {0.0, 0.25, 0.5}) {
-        const double t = halves * period / 2, before = two.at(Quantity::displacement, x, t - 1e-9);
-        BOOST_TEST(std::abs(two.at(Quantity::displacement, x, t) - before) <= 1.01e-9 * speed);
+        const double t = halves * period / 2, before = two.at(BarQuantity::displacement, x, t - 1e-9);
+        BOOST_TEST(std::abs(two.at(BarQuantity::displacement, x, t) - before) <= 1.01e-9 * speed);
       }
   }
 }
@@ -255,7 +256,7 @@ BOOST_AUTO_TEST_CASE(a_lumped_bar_that_yields_comes_to_it) {
     BOOST_TEST(std::abs(fine.release - contact) < 0.01 * contact);
     BOOST_TEST(std::abs(fine.rebound - two.rebound_velocity()) < 0.02);
     BOOST_TEST(fine.stress_error < 0.55 * coarse.stress_error);
-    BOOST_TEST(fine.stress_error < 0.02 * two.scale(Quantity::stress));
+    BOOST_TEST(fine.stress_error < 0.02 * two.scale(BarQuantity::stress));
   }
 }
 
@@ -264,13 +265,13 @@ BOOST_AUTO_TEST_CASE(only_relative_motion_matters) {
   for (int i = 0; i < 400; ++i) {
     const double t = 0.15 * std::fmod(i * 0.5698402909980532, 1), depth = 0.5 * std::fmod(i * 0.7548776662466927, 1);
     for (const double x : {0.5 - depth, 1 + depth}) {
-      check(moving.at(Quantity::stress, x, t), still.at(Quantity::stress, x, t), 100);
-      check(moving.at(Quantity::velocity, x, t), still.at(Quantity::velocity, x, t) - 40, 40);
-      check(moving.at(Quantity::displacement, x, t), still.at(Quantity::displacement, x, t) - 40 * t, 6);
+      check(moving.at(BarQuantity::stress, x, t), still.at(BarQuantity::stress, x, t), 100);
+      check(moving.at(BarQuantity::velocity, x, t), still.at(BarQuantity::velocity, x, t) - 40, 40);
+      check(moving.at(BarQuantity::displacement, x, t), still.at(BarQuantity::displacement, x, t) - 40 * t, 6);
     }
     // the right bar is the mirror image of the left one
-    check(still.at(Quantity::velocity, 1 + depth, t), -still.at(Quantity::velocity, 0.5 - depth, t), 3.1);
-    check(still.at(Quantity::stress, 1 + depth, t), still.at(Quantity::stress, 0.5 - depth, t), 100);
+    check(still.at(BarQuantity::velocity, 1 + depth, t), -still.at(BarQuantity::velocity, 0.5 - depth, t), 3.1);
+    check(still.at(BarQuantity::stress, 1 + depth, t), still.at(BarQuantity::stress, 0.5 - depth, t), 100);
   }
 }
 
@@ -281,9 +282,9 @@ BOOST_AUTO_TEST_CASE(units_scale_exactly) {
   const PlasticImpact other({1.3 / 2, 0.9 / 8, 0.11 / 2, 1.7 * 8, 0.3 * 8, 0.6, -0.42});
   for (int i = 0; i < 300; ++i) {
     const double x = 1.7 * std::fmod(i * 0.618034, 1) + (i % 2 == 0 ? 2 : 0), t = 0.06 * i;
-    BOOST_TEST(other.at(Quantity::stress, 8 * x, 4 * t) == 0.5 * one.at(Quantity::stress, x, t));
-    BOOST_TEST(other.at(Quantity::velocity, 8 * x, 4 * t) == 2 * one.at(Quantity::velocity, x, t));
-    BOOST_TEST(other.at(Quantity::displacement, 8 * x, 4 * t) == 8 * one.at(Quantity::displacement, x, t));
+    BOOST_TEST(other.at(BarQuantity::stress, 8 * x, 4 * t) == 0.5 * one.at(BarQuantity::stress, x, t));
+    BOOST_TEST(other.at(BarQuantity::velocity, 8 * x, 4 * t) == 2 * one.at(BarQuantity::velocity, x, t));
+    BOOST_TEST(other.at(BarQuantity::displacement, 8 * x, 4 * t) == 8 * one.at(BarQuantity::displacement, x, t));
   }
   BOOST_TEST(one.release_time() > one.contact_begin());
   BOOST_TEST(other.release_time() == 4 * one.release_time());
@@ -293,10 +294,10 @@ BOOST_AUTO_TEST_CASE(units_scale_exactly) {
 }
 
 BOOST_AUTO_TEST_CASE(scales) {
-  BOOST_TEST(impact(0.5).scale(Quantity::stress) == 50);
-  BOOST_TEST(impact(4, 0.5, 7).scale(Quantity::stress) == 100);
-  BOOST_TEST(impact(4, 0.5, 7).scale(Quantity::velocity) == 4);
-  BOOST_TEST(impact(4, 0.5, 7).scale(Quantity::displacement) == 0.02);
+  BOOST_TEST(impact(0.5).scale(BarQuantity::stress) == 50);
+  BOOST_TEST(impact(4, 0.5, 7).scale(BarQuantity::stress) == 100);
+  BOOST_TEST(impact(4, 0.5, 7).scale(BarQuantity::velocity) == 4);
+  BOOST_TEST(impact(4, 0.5, 7).scale(BarQuantity::displacement) == 0.02);
 }
 
 BOOST_AUTO_TEST_CASE(bad_parameters_are_refused) {
@@ -315,9 +316,9 @@ BOOST_AUTO_TEST_CASE(bad_parameters_are_refused) {
   refused({1, 1, 1, 1, 1, 20001, -20001});
   const auto two = impact(1.5);
   for (const double x : {-0.01, 0.51, 0.75, 0.99, 1.51, nan})
-    BOOST_CHECK_THROW(two.at(Quantity::stress, x, 0), std::domain_error);
-  for (const double x : {0.0, 0.5, 1.0, 1.5}) BOOST_CHECK_NO_THROW(two.at(Quantity::stress, x, 0));
-  BOOST_CHECK_THROW(two.at(Quantity::stress, 0.5, nan), std::domain_error);
+    BOOST_CHECK_THROW(two.at(BarQuantity::stress, x, 0), std::domain_error);
+  for (const double x : {0.0, 0.5, 1.0, 1.5}) BOOST_CHECK_NO_THROW(two.at(BarQuantity::stress, x, 0));
+  BOOST_CHECK_THROW(two.at(BarQuantity::stress, 0.5, nan), std::domain_error);
   BOOST_CHECK_THROW(two.plastic_work(nan), std::domain_error);
   BOOST_CHECK_THROW(self_test(two, 0), std::invalid_argument);
   BOOST_CHECK_THROW(self_test(two, nan), std::invalid_argument);
@@ -338,21 +339,21 @@ BOOST_AUTO_TEST_CASE(self_test_passes_right_solutions) {
 BOOST_AUTO_TEST_CASE(self_test_fails_wrong_solutions) {
   const auto two = impact(3.1);
   const double end = two.release_time() + 2 * period;
-  const auto same = [two](Quantity q, double x, double t) { return two.at(q, x, t); };
+  const auto same = [two](BarQuantity q, double x, double t) { return two.at(q, x, t); };
   const auto of = [&](const Spoiled::At& at) { return self_test(Spoiled(two, at), two.parameters(), end); };
   BOOST_TEST(of(same).worst() < 1e-9);  // what follows is not the wrapper's fault
-  const auto times = [two](Quantity which, double factor) {
-    return [=](Quantity q, double x, double t) { return (q == which ? factor : 1) * two.at(q, x, t); };
+  const auto times = [two](BarQuantity which, double factor) {
+    return [=](BarQuantity q, double x, double t) { return (q == which ? factor : 1) * two.at(q, x, t); };
   };
-  BOOST_TEST(of(times(Quantity::velocity, 1.01)).initial > 1e-3);
-  BOOST_TEST(of(times(Quantity::stress, 1.01)).boundary > 1e-3);
-  BOOST_TEST(of(times(Quantity::stress, 0.99)).compatibility > 1e-3);
-  BOOST_TEST(of(times(Quantity::displacement, 1.01)).compatibility > 1e-3);
-  BOOST_TEST(of([](Quantity, double, double) { return 0.0; }).initial > 0.1);
+  BOOST_TEST(of(times(BarQuantity::velocity, 1.01)).initial > 1e-3);
+  BOOST_TEST(of(times(BarQuantity::stress, 1.01)).boundary > 1e-3);
+  BOOST_TEST(of(times(BarQuantity::stress, 0.99)).compatibility > 1e-3);
+  BOOST_TEST(of(times(BarQuantity::displacement, 1.01)).compatibility > 1e-3);
+  BOOST_TEST(of([](BarQuantity, double, double) { return 0.0; }).initial > 0.1);
 
-  Spoiled ghosts(two, [two](Quantity q, double x, double t) {  // they pass through each other
+  Spoiled ghosts(two, [two](BarQuantity q, double x, double t) {  // they pass through each other
     const double v = x < 0.75 ? 3.1 : -3.1;
-    return q == Quantity::stress ? 0 : q == Quantity::velocity ? v : v * t;
+    return q == BarQuantity::stress ? 0 : q == BarQuantity::velocity ? v : v * t;
   });
   ghosts.spoil_fronts = [](std::vector<Front>) { return std::vector<Front>{}; };
   BOOST_TEST(self_test(ghosts, two.parameters(), end).boundary > 0.1);
@@ -373,7 +374,7 @@ BOOST_AUTO_TEST_CASE(self_test_fails_wrong_solutions) {
 
   // rings on after release, or is let go too early: what the wall would do is then wrong
   const auto continued = [two, end](double at_release) {
-    return [=](Quantity q, double x, double t) {
+    return [=](BarQuantity q, double x, double t) {
       const double stop = two.release_time() - at_release;
       return t < stop ? two.at(q, x, t) : two.at(q, x, stop - 2 * period + std::fmod(t - stop, 2 * period));
     };
@@ -407,7 +408,7 @@ BOOST_AUTO_TEST_CASE(self_test_fails_wrong_solutions) {
 BOOST_AUTO_TEST_CASE(self_test_reports_what_it_could_not_see) {
   const auto two = impact(3.1, 0);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const Spoiled late(two, [=](Quantity q, double x, double t) { return t > 0.03 ? nan : two.at(q, x, t); });
+  const Spoiled late(two, [=](BarQuantity q, double x, double t) { return t > 0.03 ? nan : two.at(q, x, t); });
   const auto r = self_test(late, two.parameters(), 0.04);
   for (const double value : {r.momentum, r.compatibility, r.jump, r.boundary, r.worst()}) BOOST_TEST(std::isnan(value));
   const auto blind = self_test(two, 1e-9);  // too short to difference, no front inside

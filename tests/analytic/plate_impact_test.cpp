@@ -15,6 +15,8 @@
 #include "mpm/plate.hpp"
 #include "tests/spoiled_plane.hpp"
 
+BOOST_AUTO_TEST_SUITE(plate_impact)
+
 namespace {
 
 using namespace diptych::analytic;
@@ -157,8 +159,6 @@ const std::vector<ImpactLattice::Parameters> rows{
     row(Method::usl, 0.6, 24, 11, three),  row(Method::usl, 0.5, 24, 9, on_nodes)};
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(plate_impact)
 
 BOOST_AUTO_TEST_CASE(known_values) {
   const PlateImpact s(plates);

@@ -11,6 +11,8 @@
 
 #include "tests/spoiled.hpp"
 
+BOOST_AUTO_TEST_SUITE(standing_mode)
+
 namespace {
 
 using namespace diptych::analytic;
@@ -22,18 +24,16 @@ using Spoiled = diptych::tests::Spoiled<StandingMode>;
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(standing_mode)
-
 BOOST_AUTO_TEST_CASE(known_values) {
   const StandingMode mode({1e4, 1, 2, true, false, 1, -0.01});  // c = 100, kL = π/2, period 4L/c = 0.08
   BOOST_TEST(mode.wave_number() == pi / 4, boost::test_tools::tolerance(1e-15));
-  BOOST_TEST(mode.at(Quantity::displacement, 2, 0.02) == -0.01, boost::test_tools::tolerance(1e-14));
-  BOOST_TEST(mode.at(Quantity::stress, 0, 0.02) == -1e4 * 0.01 * pi / 4, boost::test_tools::tolerance(1e-14));
-  BOOST_TEST(mode.at(Quantity::velocity, 2, 0) == -100 * pi / 4 * 0.01, boost::test_tools::tolerance(1e-14));
-  BOOST_TEST(std::abs(mode.at(Quantity::displacement, 2, 0.04)) < 1e-14 * 0.01 * 10);
-  BOOST_TEST(mode.scale(Quantity::displacement) == 0.01);
-  BOOST_TEST(mode.scale(Quantity::stress) == 1e4 * 0.01 * pi / 4, boost::test_tools::tolerance(1e-14));
-  BOOST_TEST(mode.scale(Quantity::velocity) == 100 * 0.01 * pi / 4, boost::test_tools::tolerance(1e-14));
+  BOOST_TEST(mode.at(BarQuantity::displacement, 2, 0.02) == -0.01, boost::test_tools::tolerance(1e-14));
+  BOOST_TEST(mode.at(BarQuantity::stress, 0, 0.02) == -1e4 * 0.01 * pi / 4, boost::test_tools::tolerance(1e-14));
+  BOOST_TEST(mode.at(BarQuantity::velocity, 2, 0) == -100 * pi / 4 * 0.01, boost::test_tools::tolerance(1e-14));
+  BOOST_TEST(std::abs(mode.at(BarQuantity::displacement, 2, 0.04)) < 1e-14 * 0.01 * 10);
+  BOOST_TEST(mode.scale(BarQuantity::displacement) == 0.01);
+  BOOST_TEST(mode.scale(BarQuantity::stress) == 1e4 * 0.01 * pi / 4, boost::test_tools::tolerance(1e-14));
+  BOOST_TEST(mode.scale(BarQuantity::velocity) == 100 * 0.01 * pi / 4, boost::test_tools::tolerance(1e-14));
   BOOST_TEST(mode.fronts(0.01).empty());
 }
 
@@ -45,9 +45,10 @@ BOOST_AUTO_TEST_CASE(wave_numbers_and_ends) {
                  boost::test_tools::tolerance(1e-14));
       for (const double t : {1e-6, 3.3e-5, 1e-3}) {
         for (const auto& [x, fixed] : {std::pair{0.0, left}, {0.3, right}}) {
-          const auto vanishing = fixed ? Quantity::displacement : Quantity::stress;
+          const auto vanishing = fixed ? BarQuantity::displacement : BarQuantity::stress;
           BOOST_TEST(std::abs(mode.at(vanishing, x, t)) <= 1e-13 * mode.scale(vanishing));
-          if (fixed) BOOST_TEST(std::abs(mode.at(Quantity::velocity, x, t)) <= 1e-13 * mode.scale(Quantity::velocity));
+          if (fixed)
+            BOOST_TEST(std::abs(mode.at(BarQuantity::velocity, x, t)) <= 1e-13 * mode.scale(BarQuantity::velocity));
         }
       }
     }
@@ -60,7 +61,8 @@ BOOST_AUTO_TEST_CASE(energy_is_constant) {
   for (const double t : {0.0, 1e-5, 7e-5, 1e-3}) {
     double sum = 0;
     for (int i = 0; i < 50; ++i) {  // the midpoint rule is exact for these trigonometric polynomials
-      const double x = 0.3 * (i + 0.5) / 50, v = mode.at(Quantity::velocity, x, t), s = mode.at(Quantity::stress, x, t);
+      const double x = 0.3 * (i + 0.5) / 50, v = mode.at(BarQuantity::velocity, x, t),
+                   s = mode.at(BarQuantity::stress, x, t);
       sum += (7.8e3 * v * v + s * s / 2e9) / 2 * 0.3 / 50;
     }
     BOOST_TEST(sum == whole, boost::test_tools::tolerance(1e-12));
@@ -76,8 +78,8 @@ BOOST_AUTO_TEST_CASE(bad_parameters_are_refused) {
   refused({1, 1, 1, true, true, 0, 1});
   refused({1, 1, 1, true, true, 1, 0});
   const StandingMode mode({1, 1, 1, true, true, 1, 1});
-  BOOST_CHECK_THROW(mode.at(Quantity::stress, -0.1, 0), std::domain_error);
-  BOOST_CHECK_THROW(mode.at(Quantity::stress, 0.5, nan), std::domain_error);
+  BOOST_CHECK_THROW(mode.at(BarQuantity::stress, -0.1, 0), std::domain_error);
+  BOOST_CHECK_THROW(mode.at(BarQuantity::stress, 0.5, nan), std::domain_error);
   BOOST_CHECK_THROW(self_test(mode, -1), std::invalid_argument);
 }
 
@@ -99,18 +101,18 @@ BOOST_AUTO_TEST_CASE(self_test_fails_wrong_modes) {
   const StandingMode mode(p);
   const auto residual = [&](const ExactSolution& wrong) { return self_test(wrong, problem(p), 0.1); };
   const auto of = [&](const Spoiled::At& at) { return residual(Spoiled(mode, at)); };
-  const auto same = [=](Quantity q, double x, double t) { return mode.at(q, x, t); };
+  const auto same = [=](BarQuantity q, double x, double t) { return mode.at(q, x, t); };
   BOOST_TEST(of(same).worst() < 1e-9);
 
   const double late = pi / 2 / (mode.wave_number() * mode.wave_speed());
-  const auto released = of([=](Quantity q, double x, double t) { return mode.at(q, x, t + late); });  // u ~ cos(ωt)
+  const auto released = of([=](BarQuantity q, double x, double t) { return mode.at(q, x, t + late); });  // u ~ cos(ωt)
   BOOST_TEST(released.initial > 0.1);
   BOOST_TEST(released.momentum < 1e-9);
-  BOOST_TEST(of([=](Quantity q, double x, double t) {
-               return (q == Quantity::velocity ? -1 : 1) * mode.at(q, x, t);
+  BOOST_TEST(of([=](BarQuantity q, double x, double t) {
+               return (q == BarQuantity::velocity ? -1 : 1) * mode.at(q, x, t);
              }).compatibility > 0.1);
   const auto soft_stress =
-      of([=](Quantity q, double x, double t) { return (q == Quantity::stress ? 0.99 : 1) * mode.at(q, x, t); });
+      of([=](BarQuantity q, double x, double t) { return (q == BarQuantity::stress ? 0.99 : 1) * mode.at(q, x, t); });
   BOOST_TEST(soft_stress.momentum > 1e-3);
   BOOST_TEST(soft_stress.compatibility > 1e-3);
   BOOST_TEST(residual(StandingMode({1.01e4, 1, 1, true, false, 2, 1e-3})).compatibility > 1e-3);
@@ -119,8 +121,8 @@ BOOST_AUTO_TEST_CASE(self_test_fails_wrong_modes) {
   BOOST_TEST(residual(StandingMode({1e4, 1, 1, false, false, 2, 1e-3})).boundary > 0.1);
   BOOST_TEST(residual(StandingMode({1e4, 1, 1, true, false, 3, 1e-3})).initial > 0.1);
   BOOST_TEST(residual(StandingMode({1e4, 1, 1, true, false, 2, 1.01e-3})).initial > 1e-3);
-  BOOST_TEST(of([](Quantity, double, double) { return 0.0; }).initial > 0.1);
-  BOOST_TEST(std::isnan(of([](Quantity, double, double) { return std::nan(""); }).worst()));
+  BOOST_TEST(of([](BarQuantity, double, double) { return 0.0; }).initial > 0.1);
+  BOOST_TEST(std::isnan(of([](BarQuantity, double, double) { return std::nan(""); }).worst()));
 
   Spoiled with_front(mode, same);
   with_front.spoil_fronts = [](std::vector<Front>) { return std::vector<Front>{{0.5, 1, 1.0, 0.5}}; };

@@ -16,6 +16,8 @@
 #include "analytic/discrete.hpp"
 #include "analytic/standing_mode.hpp"
 
+BOOST_AUTO_TEST_SUITE(viscous_front)
+
 namespace {
 
 using namespace diptych::analytic;
@@ -169,16 +171,16 @@ Lumped lumped(int cells, double courant, double c1, double c2, double load, doub
 }
 
 /// (∫|e|^p dx)^(1/p), of stress constant in cells, or of velocity on lines between nodes.
-double measured(const Lumped& b, const BarWave& exact, Quantity quantity, Norm norm, bool with_viscous = false) {
+double measured(const Lumped& b, const BarWave& exact, BarQuantity quantity, Norm norm, bool with_viscous = false) {
   constexpr int points = 20;
-  const double t = quantity == Quantity::velocity ? b.t - b.dt / 2 : b.t;
+  const double t = quantity == BarQuantity::velocity ? b.t - b.dt / 2 : b.t;
   double sum = 0;
   for (std::size_t i = 0; i < b.stress.size(); ++i)
     for (int j = 0; j < points; ++j) {
       const double z = (j + 0.5) / points;
-      const double value = quantity == Quantity::velocity ? (1 - z) * b.velocity[i] + z * b.velocity[i + 1]
-                           : with_viscous                 ? b.stress[i] + b.viscous[i]
-                                                          : b.stress[i];
+      const double value = quantity == BarQuantity::velocity ? (1 - z) * b.velocity[i] + z * b.velocity[i + 1]
+                           : with_viscous                    ? b.stress[i] + b.viscous[i]
+                                                             : b.stress[i];
       const double e = std::abs(value - exact.at(quantity, b.h * (static_cast<double>(i) + z), t));
       sum += b.h / points * (norm == Norm::l1 ? e : e * e);
     }
@@ -188,8 +190,6 @@ double measured(const Lumped& b, const BarWave& exact, Quantity quantity, Norm n
 BarWave compressed(double load = 1) { return BarWave({1e4, 1, 1, held, loaded(Traction::step(-load))}); }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(viscous_front)
 
 BOOST_AUTO_TEST_CASE(the_limit_has_its_ends) {
   BOOST_TEST(viscous_stability_limit(1, 0) == 1);
@@ -276,15 +276,15 @@ BOOST_AUTO_TEST_CASE(a_lumped_bar_under_a_step_is_as_wrong_as_predicted) {
       const double c1 = 0.5, nu = c1 * 100 / cells;
       const auto bar = lumped(cells, 0.3, c1, 0, -1, path);
       const auto exact = compressed();
-      for (const auto quantity : {Quantity::stress, Quantity::velocity})
+      for (const auto quantity : {BarQuantity::stress, BarQuantity::velocity})
         for (const auto norm : {Norm::l1, Norm::l2}) {
-          const double t = quantity == Quantity::stress ? bar.t : bar.t - bar.dt / 2;
+          const double t = quantity == BarQuantity::stress ? bar.t : bar.t - bar.dt / 2;
           const auto predicted = viscous_step_error(exact, nu, quantity, norm, t);
           BOOST_TEST_REQUIRE(predicted.has_value());
           BOOST_TEST(measured(bar, exact, quantity, norm) == *predicted, boost::test_tools::tolerance(1.5e-3));
         }
-      BOOST_TEST(measured(bar, exact, Quantity::stress, Norm::l1, true) ==
-                     *viscous_step_error(exact, nu, Quantity::stress, Norm::l1, bar.t),
+      BOOST_TEST(measured(bar, exact, BarQuantity::stress, Norm::l1, true) ==
+                     *viscous_step_error(exact, nu, BarQuantity::stress, Norm::l1, bar.t),
                  boost::test_tools::tolerance(3e-3));
     }
 }
@@ -316,36 +316,36 @@ BOOST_AUTO_TEST_CASE(errors_of_fronts_add) {
   const double nu = 0.05, t = 0.0025, f = 3;
   const BarWave one({1e4, 1, 1, held, loaded(Traction::step(-f))});
   const BarWave two({1e4, 1, 1, loaded(Traction::step(-f)), loaded(Traction::step(-f))});
-  const auto error = [&](const BarWave& bar, Quantity quantity, Norm norm) {
+  const auto error = [&](const BarWave& bar, BarQuantity quantity, Norm norm) {
     const auto e = viscous_step_error(bar, nu, quantity, norm, t);
     BOOST_TEST_REQUIRE(e.has_value());
     return *e;
   };
   const auto tolerance = boost::test_tools::tolerance(1e-12);
-  BOOST_TEST(error(one, Quantity::stress, Norm::l1) == f * viscous_front_l1(nu, t), tolerance);
-  BOOST_TEST(error(one, Quantity::stress, Norm::l2) == f * viscous_front_l2(nu, t), tolerance);
-  for (const auto quantity : {Quantity::stress, Quantity::velocity}) {
+  BOOST_TEST(error(one, BarQuantity::stress, Norm::l1) == f * viscous_front_l1(nu, t), tolerance);
+  BOOST_TEST(error(one, BarQuantity::stress, Norm::l2) == f * viscous_front_l2(nu, t), tolerance);
+  for (const auto quantity : {BarQuantity::stress, BarQuantity::velocity}) {
     BOOST_TEST(error(two, quantity, Norm::l1) == 2 * error(one, quantity, Norm::l1), tolerance);
     BOOST_TEST(error(two, quantity, Norm::l2) == std::sqrt(2) * error(one, quantity, Norm::l2), tolerance);
   }
-  BOOST_TEST(100 * error(one, Quantity::velocity, Norm::l1) == error(one, Quantity::stress, Norm::l1), tolerance);
+  BOOST_TEST(100 * error(one, BarQuantity::velocity, Norm::l1) == error(one, BarQuantity::stress, Norm::l1), tolerance);
   const BarWave later({1e4, 1, 1, held, loaded(Traction::step(-f, 0.004))});
-  const auto late = viscous_step_error(later, nu, Quantity::stress, Norm::l1, t + 0.004);
+  const auto late = viscous_step_error(later, nu, BarQuantity::stress, Norm::l1, t + 0.004);
   BOOST_TEST_REQUIRE(late.has_value());
   BOOST_TEST(*late == f * viscous_front_l1(nu, t), tolerance);
-  const auto late_square = viscous_step_error(later, nu, Quantity::stress, Norm::l2, t + 0.004);
+  const auto late_square = viscous_step_error(later, nu, BarQuantity::stress, Norm::l2, t + 0.004);
   BOOST_TEST_REQUIRE(late_square.has_value());
   BOOST_TEST(*late_square == f * viscous_front_l2(nu, t), tolerance);
   // the mean over a bar of twice the length, wave speed, density and stress, at the same time
   const BarWave other({8e4, 2, 2, held, loaded(Traction::step(-2 * f))});
-  const auto l1 = viscous_step_error(other, nu, Quantity::stress, Norm::l1, t);
+  const auto l1 = viscous_step_error(other, nu, BarQuantity::stress, Norm::l1, t);
   BOOST_TEST_REQUIRE(l1.has_value());
-  BOOST_TEST(*l1 == error(one, Quantity::stress, Norm::l1), tolerance);  // 2 f, over 2 L
+  BOOST_TEST(*l1 == error(one, BarQuantity::stress, Norm::l1), tolerance);  // 2 f, over 2 L
 }
 
 BOOST_AUTO_TEST_CASE(what_is_not_smoothed_is_not_predicted) {
   const double nu = 0.05;
-  const auto known = [&](const ExactSolution& s, double t, Quantity q = Quantity::stress, Norm n = Norm::l1) {
+  const auto known = [&](const ExactSolution& s, double t, BarQuantity q = BarQuantity::stress, Norm n = Norm::l1) {
     return viscous_step_error(s, nu, q, n, t).has_value();
   };
   const auto bar = compressed();
@@ -354,8 +354,8 @@ BOOST_AUTO_TEST_CASE(what_is_not_smoothed_is_not_predicted) {
   BOOST_TEST(!known(bar, 0.025));  // turned by the loaded one
   BOOST_TEST(!known(bar, 0.035));
   BOOST_TEST(!known(bar, 0));
-  BOOST_TEST(!known(bar, 0.005, Quantity::displacement));
-  BOOST_TEST(!known(bar, 0.005, Quantity::stress, Norm::linf));
+  BOOST_TEST(!known(bar, 0.005, BarQuantity::displacement));
+  BOOST_TEST(!known(bar, 0.005, BarQuantity::stress, Norm::linf));
   // 4 √(2νt) is 0.02 √(ct) L, here, of which the path to either end is to be more
   BOOST_TEST(!known(bar, 0.00001));
   BOOST_TEST(!known(bar, 0.0099));
@@ -385,8 +385,8 @@ BOOST_AUTO_TEST_CASE(what_is_not_smoothed_is_not_predicted) {
   BOOST_TEST(!known(BarWave({1e4, 1, 1, held, loaded(Traction::step(-1, 0.005))}), 0.004));  // not loaded yet
   BOOST_TEST(!known(StandingMode({1e4, 1, 1, true, false, 1, 1e-3}), 0.005));
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  BOOST_CHECK_THROW(viscous_step_error(bar, 0, Quantity::stress, Norm::l1, 0.005), std::invalid_argument);
-  BOOST_CHECK_THROW(viscous_step_error(bar, nu, Quantity::stress, Norm::l1, nan), std::invalid_argument);
+  BOOST_CHECK_THROW(viscous_step_error(bar, 0, BarQuantity::stress, Norm::l1, 0.005), std::invalid_argument);
+  BOOST_CHECK_THROW(viscous_step_error(bar, nu, BarQuantity::stress, Norm::l1, nan), std::invalid_argument);
   BOOST_CHECK_THROW(diptych::analytic::viscous_front(0, 1, 0), std::invalid_argument);
   BOOST_CHECK_THROW(viscous_front_width(-1, 1), std::invalid_argument);
   BOOST_CHECK_THROW(viscous_front_l1(1, nan), std::invalid_argument);

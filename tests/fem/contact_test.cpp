@@ -18,6 +18,8 @@
 #include "tests/scenes.hpp"
 #include "tests/steps.hpp"
 
+BOOST_AUTO_TEST_SUITE(contact)
+
 using namespace diptych;
 using namespace diptych::tests;
 using fem::Face;
@@ -101,8 +103,6 @@ Face moved(Face f, double force, double kick, double step) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(contact)
 
 // --- a pair of end nodes
 // ------------------------------------------------------------------------------------------------

@@ -8,11 +8,11 @@
 #include "hinge/step/ledger.hpp"
 #include "tests/scenes.hpp"
 
+BOOST_AUTO_TEST_SUITE(fem_bar)
+
 using namespace diptych;
 using namespace diptych::tests;
 namespace tt = boost::test_tools;
-
-BOOST_AUTO_TEST_SUITE(fem_bar)
 
 BOOST_AUTO_TEST_CASE(critical_time_step_is_cell_over_wave_speed) {
   BOOST_TEST(fem::critical_time_step(step_scene(), 50) == 0.02 / 100, tt::tolerance(1e-15));

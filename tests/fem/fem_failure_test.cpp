@@ -13,6 +13,8 @@
 #include "hinge/step/viscous_step.hpp"
 #include "tests/plate_records.hpp"
 
+BOOST_AUTO_TEST_SUITE(fem_failure)
+
 using namespace diptych;
 using material::FailureWave;
 using material::Plane;
@@ -108,8 +110,6 @@ Plate held(double strain, double f_max) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(fem_failure)
 
 // ---- off ----
 

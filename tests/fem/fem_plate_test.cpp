@@ -11,6 +11,8 @@
 #include "fem/sweep.hpp"
 #include "tests/plate_records.hpp"
 
+BOOST_AUTO_TEST_SUITE(fem_plate)
+
 using namespace diptych;
 using material::Plane;
 using material::Tensor;
@@ -110,8 +112,6 @@ void books_close(const PlateRecord& r, double tolerance = 1e-12) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(fem_plate)
 
 // ---- the cell ----
 

@@ -16,6 +16,8 @@
 #include "hinge/diffusion/cholesky.hpp"
 #include "tests/fields.hpp"
 
+BOOST_AUTO_TEST_SUITE(concentration)
+
 using namespace diptych::diffusion;
 using namespace diptych::tests;
 namespace tt = boost::test_tools;
@@ -111,8 +113,6 @@ double rms_error(const Grid& g, std::span<const double> c, F exact, Where where)
 const auto everywhere = [](double, double) { return true; };
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(concentration)
 
 // Against another way to build the same operator: cell by cell, each giving half a face to each of its four edges and a
 // quarter of itself to each of its nodes. Radial weights are 1/r in the middle of half a face, and exact over a

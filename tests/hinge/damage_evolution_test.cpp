@@ -11,6 +11,8 @@
 
 #include "hinge/material/tensile_damage.hpp"
 
+BOOST_AUTO_TEST_SUITE(damage_evolution)
+
 using namespace diptych::diffusion;
 namespace tt = boost::test_tools;
 
@@ -44,8 +46,6 @@ constexpr Grid one_cell{1, 1, 0.1, 0.1};
 double one(const DamageEvolution& evolution) { return evolution.crack_density()[0]; }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(damage_evolution)
 
 BOOST_AUTO_TEST_CASE(paper_constants_give_the_coefficient) {
   diptych::material::TensileDamage material;

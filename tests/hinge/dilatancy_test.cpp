@@ -12,6 +12,8 @@
 
 #include "tests/fields.hpp"
 
+BOOST_AUTO_TEST_SUITE(dilatancy)
+
 using namespace diptych::diffusion;
 using namespace diptych::tests;
 namespace tt = boost::test_tools;
@@ -137,8 +139,6 @@ double ratio(Scheme scheme) { return scheme == Scheme::forward_euler ? 0.4 : 0.8
 long steps_of(Scheme scheme, int n) { return std::lround(n * n / 144.0 / ratio(scheme)); }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(dilatancy)
 
 // V_d = erfc(x/(2√s)), s = d t. Its node value at the face is 1 from the start, where the odd continuation of
 // V_d − 1 has its jump: the grid sees it as h/2 cot(kh/2) = (1 − k²h²/12 …)/k. The steps take

@@ -9,6 +9,8 @@
 #include "analytic/failure_point.hpp"
 #include "hinge/material/failure_wave_law.hpp"
 
+BOOST_AUTO_TEST_SUITE(failure_wave)
+
 namespace {
 
 using boost::test_tools::tolerance;
@@ -52,8 +54,6 @@ double dilatancy(const FailureWave& wave, const Tensor& e, double f) {
 double size(const FailurePoint& p) { return p.whole_equivalent + std::abs(p.pressure); }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(failure_wave)
 
 BOOST_AUTO_TEST_CASE(is_the_closed_form) {
   for (const double f_max : {0.0, 0.3, 1.0}) {

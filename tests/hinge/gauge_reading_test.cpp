@@ -7,6 +7,8 @@
 #include "mpm/plate.hpp"
 #include "tests/plate_records.hpp"
 
+BOOST_AUTO_TEST_SUITE(gauge_reading)
+
 using namespace diptych;
 namespace tt = boost::test_tools;
 
@@ -47,8 +49,6 @@ std::vector<GaugeRecord> seen(const Plate& p, bool fem) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(gauge_reading)
 
 BOOST_AUTO_TEST_CASE(a_gauge_reads_between_two_middles_and_on_an_edge_both_rows) {
   const Cells cells{7, 4};  // of 1 × 1 m

@@ -15,6 +15,8 @@
 #include "tests/scenes.hpp"
 #include "tests/text.hpp"
 
+BOOST_AUTO_TEST_SUITE(ledger)
+
 using namespace diptych;
 using namespace diptych::tests;
 namespace tt = boost::test_tools;
@@ -112,8 +114,6 @@ void books_close(const Record& r, double mass) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(ledger)
 
 // --- one line by hand
 // ---------------------------------------------------------------------------------------------------

@@ -14,6 +14,8 @@
 #include "hinge/material/plane.hpp"
 #include "hinge/material/tensile_damage.hpp"
 
+BOOST_AUTO_TEST_SUITE(plane_material)
+
 using namespace diptych::material;
 namespace tt = boost::test_tools;
 
@@ -127,8 +129,6 @@ double mean_stress(const PlaneElastic& e, const Tensor& stress, const Tensor& st
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(plane_material)
 
 // E = 15, ν = ¼: λ = G = 6. Plane strain: σ_xx = (λ + 2G) ε_xx + λ ε_yy. Plane stress: E/(1 − ν²) = 16, ν times it = 4.
 BOOST_AUTO_TEST_CASE(hookes_law_in_the_plane) {

@@ -15,6 +15,8 @@
 #include "mpm/plate_body.hpp"
 #include "tests/plate_records.hpp"
 
+BOOST_AUTO_TEST_SUITE(plane_model)
+
 using namespace diptych;
 using material::PlaneElastic;
 using material::Tensor;
@@ -112,8 +114,6 @@ void is_consistent(Model& model, const PlaneElastic& elastic) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(plane_model)
 
 BOOST_AUTO_TEST_CASE(both_panels_run_a_law_that_they_do_not_know) {
   const Softened soft{rubber, 0.6};

@@ -9,6 +9,8 @@
 #include "mpm/plate.hpp"
 #include "tests/plate_records.hpp"
 
+BOOST_AUTO_TEST_SUITE(plate_check)
+
 using namespace diptych;
 
 namespace {
@@ -40,8 +42,6 @@ void refused(Change&& change, const std::string& words, const Cells& n = cells) 
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(plate_check)
 
 BOOST_AUTO_TEST_CASE(a_good_plate_passes) {
   BOOST_CHECK_NO_THROW(check(plate(), cells));

@@ -3,9 +3,9 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-using namespace diptych;
-
 BOOST_AUTO_TEST_SUITE(touches)
+
+using namespace diptych;
 
 BOOST_AUTO_TEST_CASE(each_pair_of_bars_touches_and_parts_on_its_own) {
   Touches touches;

@@ -15,6 +15,8 @@
 #include "tests/scenes.hpp"
 #include "tests/steps.hpp"
 
+BOOST_AUTO_TEST_SUITE(viscosity)
+
 using namespace diptych;
 using namespace diptych::tests;
 using material::Viscosity;
@@ -46,8 +48,6 @@ void same_bits(const Record& a, const Record& b) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(viscosity)
 
 // ρ λ c g h D (c₁ + c₂ |D|/|D|max) = 3 · 0.75 · 100 · 1.25 · 0.1 · (−4) (0.5 + 2 · 4/16).
 BOOST_AUTO_TEST_CASE(yorks_form_by_hand) {

@@ -10,6 +10,8 @@
 #include "tests/scenes.hpp"
 #include "tests/text.hpp"
 
+BOOST_AUTO_TEST_SUITE(mpm_bar)
+
 using namespace diptych;
 using namespace diptych::tests;
 using mpm::Scheme;
@@ -23,8 +25,6 @@ bool all_zero(const Field& f) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(mpm_bar)
 
 BOOST_AUTO_TEST_CASE(critical_time_steps_are_the_closed_forms) {
   const Scene scene = step_scene();

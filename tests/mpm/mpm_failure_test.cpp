@@ -15,6 +15,8 @@
 #include "mpm/plate.hpp"
 #include "tests/plate_records.hpp"
 
+BOOST_AUTO_TEST_SUITE(mpm_failure)
+
 using namespace diptych;
 using mpm::Scheme;
 namespace tt = boost::test_tools;
@@ -148,8 +150,6 @@ Vector ragged(double x, double y) { return {std::sin(37 * x + 11 * y * y) + 0.3,
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(mpm_failure)
-
 // --- the failure wave
 // -------------------------------------------------------------------------------------------------
 
@@ -191,7 +191,7 @@ struct Quick {
   material::Tensor rate;
 
   Quick(const material::FailureWave& wave, const Cells& cells, int which, const material::Tensor& end) {
-    plate = ::plate(1, 0.6);
+    plate = mpm_failure::plate(1, 0.6);
     plate.solid = solid::Failing{wave};
     how = stepping(plate, cells, scheme(which), 1e-7, 60);
     const double all = 60 * how.time_step;

@@ -10,6 +10,8 @@
 #include "mpm/plate.hpp"
 #include "tests/plate_records.hpp"
 
+BOOST_AUTO_TEST_SUITE(mpm_plate)
+
 using namespace diptych;
 using mpm::Scheme;
 namespace tt = boost::test_tools;
@@ -91,8 +93,6 @@ void the_books_close(const PlateRecord& r, double tolerance = 1e-12) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(mpm_plate)
 
 // --- exact
 // ------------------------------------------------------------------------------------------------------------

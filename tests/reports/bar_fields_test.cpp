@@ -4,9 +4,9 @@
 
 #include "reports/results.hpp"
 
-using namespace diptych::reports;
-
 BOOST_AUTO_TEST_SUITE(bar_fields)
+
+using namespace diptych::reports;
 
 BOOST_AUTO_TEST_CASE(a_line_for_each_point_and_time_with_units_above) {
   Case result;

@@ -22,6 +22,8 @@
 #include "tests/folder.hpp"
 #include "tests/text.hpp"
 
+BOOST_AUTO_TEST_SUITE(figures)
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -236,8 +238,6 @@ Figure histories() {
 const std::string fem_colour = "rgb(  8,  48, 107)", exact_colour = "rgb(198, 198, 198)";
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(figures)
 
 BOOST_AUTO_TEST_CASE(script_data_and_picture) {
   const Folder folder;

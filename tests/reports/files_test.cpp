@@ -23,6 +23,8 @@
 #include "tests/messages.hpp"
 #include "tests/text.hpp"
 
+BOOST_AUTO_TEST_SUITE(files)
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -107,8 +109,6 @@ Case example() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(files)
 
 BOOST_AUTO_TEST_CASE(writes_and_replaces) {
   const Folder folder;

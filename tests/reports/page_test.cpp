@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <string>
 
+BOOST_AUTO_TEST_SUITE(page)
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -64,8 +66,6 @@ std::string text_of(const pugi::xml_node& node) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(page)
 
 BOOST_AUTO_TEST_CASE(page_holds_what_it_was_given) {
   const Page page = example();

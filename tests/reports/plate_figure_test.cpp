@@ -23,6 +23,8 @@
 #include "tests/folder.hpp"
 #include "tests/text.hpp"
 
+BOOST_AUTO_TEST_SUITE(plate_figure)
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -162,8 +164,6 @@ std::string panel_of(const std::string& script, int panel) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(plate_figure)
 
 // ---- bands
 

@@ -11,6 +11,8 @@
 
 #include "tests/text.hpp"
 
+BOOST_AUTO_TEST_SUITE(tables)
+
 namespace {
 
 namespace tt = boost::test_tools;
@@ -92,8 +94,6 @@ std::vector<std::string> cells(const std::string& line) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(tables)
 
 BOOST_AUTO_TEST_CASE(fit_of_exact_powers) {
   const Fit second = fit_order({0.1, 0.05, 0.025}, {3e-2, 7.5e-3, 1.875e-3});

@@ -21,6 +21,8 @@
 
 #include "tests/folder.hpp"
 
+BOOST_AUTO_TEST_SUITE(vtu)
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -94,8 +96,6 @@ VtuMesh triangles() { return {{0, 1, 1, 0}, {0, 0, 1, 1}, {0, 1, 2, 0, 2, 3}, 3}
 const double nan_with_payload = std::bit_cast<double>(std::uint64_t{0x7ff8dead0000beefU});
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(vtu)
 
 BOOST_AUTO_TEST_CASE(every_bit_comes_back) {
   const Folder folder;

@@ -19,6 +19,8 @@
 #include "tests/made_runs.hpp"
 #include "tests/text.hpp"
 
+namespace agreement {
+
 using namespace diptych;
 using namespace diptych::runner;
 using namespace diptych::tests;
@@ -101,7 +103,9 @@ struct Fixture {
 
 }  // namespace
 
-BOOST_FIXTURE_TEST_SUITE(agreement, Fixture)
+}  // namespace agreement
+
+BOOST_FIXTURE_TEST_SUITE(agreement, agreement::Fixture)
 
 BOOST_AUTO_TEST_CASE(methods_that_converge_to_the_same_agree) {
   for (std::size_t g = 0; g < 3; ++g) {

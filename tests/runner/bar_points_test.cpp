@@ -9,6 +9,8 @@
 #include "runner/app/catalogue.hpp"
 #include "runner/run/run_leaf.hpp"
 
+BOOST_AUTO_TEST_SUITE(bar_points)
+
 using namespace diptych;
 using namespace diptych::runner;
 namespace tt = boost::test_tools;
@@ -24,8 +26,6 @@ reports::Run run_of(const std::string& id, const std::string& label, bool keep_f
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(bar_points)
 
 BOOST_AUTO_TEST_CASE(particles_carry_all_three_fields) {
   const auto run = run_of("bar.convection.rigid", "mpm-musl N=50 C=0.5 ppc=2");

@@ -23,6 +23,8 @@
 #include "tests/messages.hpp"
 #include "tests/text.hpp"
 
+BOOST_AUTO_TEST_SUITE(case_file)
+
 using namespace diptych;
 using namespace diptych::runner;
 using namespace diptych::tests;
@@ -322,8 +324,6 @@ std::string perfectly_plastic() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(case_file)
 
 BOOST_AUTO_TEST_CASE(every_key_is_read) {
   BOOST_REQUIRE_EQUAL(message(whole), "");

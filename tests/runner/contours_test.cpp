@@ -8,6 +8,8 @@
 #include <numbers>
 #include <stdexcept>
 
+BOOST_AUTO_TEST_SUITE(contours)
+
 using namespace diptych::runner;
 namespace tt = boost::test_tools;
 
@@ -77,8 +79,6 @@ void is_point(const Polyline& line, std::size_t i, double x, double y) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(contours)
 
 BOOST_AUTO_TEST_CASE(a_closed_circle_runs_with_what_is_above_on_its_left) {
   const auto lines = contour(sampled(40, 60, 1, 1.5, cone(0.45, 0.7)), 1.7);

@@ -12,6 +12,8 @@
 #include "tests/made_runs.hpp"
 #include "tests/text.hpp"
 
+namespace convergence_figures {
+
 using namespace diptych;
 using namespace diptych::runner;
 using namespace diptych::tests;
@@ -96,7 +98,9 @@ bool noted(const std::vector<std::string>& notes, const std::string& part) {
 
 }  // namespace
 
-BOOST_FIXTURE_TEST_SUITE(convergence_figures, Fixture)
+}  // namespace convergence_figures
+
+BOOST_FIXTURE_TEST_SUITE(convergence_figures, convergence_figures::Fixture)
 
 BOOST_AUTO_TEST_CASE(probes_stand_over_the_cell_size_with_their_bands_and_limits) {
   const auto figure = drawn_figure(c, "converges", runs);

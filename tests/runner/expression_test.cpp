@@ -14,6 +14,8 @@
 #include "tests/messages.hpp"
 #include "tests/text.hpp"
 
+BOOST_AUTO_TEST_SUITE(expression)
+
 using diptych::runner::Expression;
 using diptych::runner::InputError;
 using namespace diptych::tests;
@@ -35,8 +37,6 @@ void wrong(const std::string& formula, const std::vector<std::string>& parts) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(expression)
 
 BOOST_AUTO_TEST_CASE(values) {
   BOOST_TEST(value("x") == 3);

@@ -7,11 +7,11 @@
 #include "mpm/bar.hpp"
 #include "tests/scenes.hpp"
 
+BOOST_AUTO_TEST_SUITE(fem_beside_mpm)
+
 using namespace diptych;
 using namespace diptych::tests;
 namespace bdata = boost::unit_test::data;
-
-BOOST_AUTO_TEST_SUITE(fem_beside_mpm)
 
 // One centred particle a cell sees the grid through the average of its two nodes: C² s² (1 − s²) = (C/2)² sin² kh, the
 // dispersion of FEM with elements twice as long at half the Courant number. A wave that enters at an end node keeps the

@@ -15,6 +15,8 @@
 #include "tests/messages.hpp"
 #include "tests/text.hpp"
 
+BOOST_AUTO_TEST_SUITE(figure_kinds)
+
 using namespace diptych;
 using namespace diptych::runner;
 using namespace diptych::tests;
@@ -43,7 +45,7 @@ void add(const Case&, const FigureSpec& spec, reports::Case& result) {
   result.figures.push_back(figure);
 }
 
-FigureKind points_kind() { return {.name = "points", .keys = {"cells", "counted"}, .read = read, .add = add}; }
+FigureKind points_kind() { return {.id = "points", .keys = {"cells", "counted"}, .read = read, .add = add}; }
 
 const std::string bar = head("t", "code-verification", "paper") + pulled_bar + axes({"fem", "mpm-musl"}, "10", "0.5") +
                         R"(particles = [[0.25, 0.75]]
@@ -67,16 +69,14 @@ std::string refusal(const std::string& of) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(figure_kinds)
-
 BOOST_AUTO_TEST_CASE(every_row_has_a_name_of_its_own_and_draws) {
   std::set<std::string> names;
   for (const FigureKind& kind : runner::figure_kinds()) {
-    BOOST_TEST((kind.add != nullptr), kind.name);
-    BOOST_TEST(names.insert(kind.name).second, kind.name);
+    BOOST_TEST((kind.add != nullptr), kind.id);
+    BOOST_TEST(names.insert(kind.id).second, kind.id);
     // What is read nowhere would be taken and mean nothing; the common keys are read for every kind.
     for (const std::string& key : kind.keys)
-      BOOST_TEST((kind.read != nullptr || key == "cells" || key == "times" || key == "range"), kind.name + ": " + key);
+      BOOST_TEST((kind.read != nullptr || key == "cells" || key == "times" || key == "range"), kind.id + ": " + key);
   }
   BOOST_TEST(names.size() == 11U);
 }

@@ -17,6 +17,8 @@
 #include "tests/messages.hpp"
 #include "tests/text.hpp"
 
+BOOST_AUTO_TEST_SUITE(gate_kinds)
+
 using namespace diptych;
 using namespace diptych::runner;
 using namespace diptych::tests;
@@ -86,8 +88,6 @@ void check_refused(const std::string& text, const std::vector<std::string>& part
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(gate_kinds)
 
 BOOST_AUTO_TEST_CASE(a_kind_that_no_row_has_is_refused) {
   check_refused(bar(usual + spanning), {"gate \"wide\": kind", "\"span\"", "\"exact\", \"constant\", \"order\""});

@@ -13,6 +13,8 @@
 #include "tests/case_text.hpp"
 #include "tests/criteria.hpp"
 
+namespace gates {
+
 using namespace diptych;
 using namespace diptych::runner;
 using namespace diptych::tests;
@@ -48,7 +50,9 @@ struct Fixture {
 
 }  // namespace
 
-BOOST_FIXTURE_TEST_SUITE(gates, Fixture)
+}  // namespace gates
+
+BOOST_FIXTURE_TEST_SUITE(gates, gates::Fixture)
 
 BOOST_AUTO_TEST_CASE(a_right_solver_passes) {
   for (std::size_t g = 0; g < c.gates.size(); ++g) {

@@ -22,6 +22,8 @@
 #include "tests/made_runs.hpp"
 #include "tests/text.hpp"
 
+BOOST_AUTO_TEST_SUITE(gauges)
+
 using namespace diptych;
 using namespace diptych::runner;
 using namespace diptych::tests;
@@ -210,8 +212,6 @@ Case whole_solid() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(gauges)
 
 // ---- histories ------------------------------------------------------------------------------------------------------
 

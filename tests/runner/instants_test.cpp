@@ -4,6 +4,8 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+BOOST_AUTO_TEST_SUITE(instants)
+
 using namespace diptych;
 using namespace diptych::runner;
 namespace tt = boost::test_tools;
@@ -34,8 +36,6 @@ std::vector<Snapshot> snapshots(long last, double dt, bool usf, double (*stress)
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(instants)
 
 BOOST_AUTO_TEST_CASE(a_step_meets_all_instants_where_a_little_less_does) {
   const Plan met = plan({0.4, 0.6, 0.8}, 0.0097);  // 82.5 steps; 84 meet all

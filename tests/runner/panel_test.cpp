@@ -19,6 +19,8 @@
 #include "tests/messages.hpp"
 #include "tests/text.hpp"
 
+BOOST_AUTO_TEST_SUITE(panel)
+
 using namespace diptych;
 using namespace diptych::runner;
 using reports::Verdict;
@@ -152,8 +154,6 @@ reports::Case measured(const Case& c) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(panel)
 
 BOOST_AUTO_TEST_CASE(an_unknown_method_falls_through_nowhere) {
   for (const char* id : {"", "mpm", "mpm-apic", "FEM", "other"}) {

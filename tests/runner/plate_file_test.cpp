@@ -25,6 +25,8 @@
 #include "tests/messages.hpp"
 #include "tests/text.hpp"
 
+BOOST_AUTO_TEST_SUITE(plate_file)
+
 using namespace diptych;
 using namespace diptych::runner;
 using namespace diptych::tests;
@@ -379,8 +381,6 @@ Case good(const std::string& text, const std::string& from, const std::string& t
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(plate_file)
 
 // ---- what is read ---------------------------------------------------------------------------------------------------
 

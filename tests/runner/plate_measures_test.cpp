@@ -20,6 +20,8 @@
 #include "tests/messages.hpp"
 #include "tests/text.hpp"
 
+BOOST_AUTO_TEST_SUITE(plate_measures)
+
 using namespace diptych;
 using namespace diptych::runner;
 using namespace diptych::tests;
@@ -159,8 +161,6 @@ PlateRecord record_of(std::vector<double> x, std::vector<double> first) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(plate_measures)
 
 // ---- norms ----------------------------------------------------------------------------------------------------------
 

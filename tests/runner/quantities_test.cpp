@@ -12,6 +12,8 @@
 #include "tests/messages.hpp"
 #include "tests/text.hpp"
 
+BOOST_AUTO_TEST_SUITE(quantities)
+
 using namespace diptych;
 using namespace diptych::runner;
 using namespace diptych::tests;
@@ -62,8 +64,6 @@ probes = [{ id = "middle", reads = "displacement-x", at = [0.5, 0.25] }]
 Case parsed(const std::string& text) { return parse_case(text, "t.toml"); }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(quantities)
 
 BOOST_AUTO_TEST_CASE(a_name_stands_once_and_tells_its_unit) {
   std::set<std::string> names;

@@ -9,6 +9,8 @@
 #include <numbers>
 #include <stdexcept>
 
+BOOST_AUTO_TEST_SUITE(uncertainty)
+
 using namespace diptych::runner;
 namespace tt = boost::test_tools;
 
@@ -61,8 +63,6 @@ class Noise {
 };
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(uncertainty)
 
 BOOST_AUTO_TEST_CASE(a_scaled_history_differs_in_magnitude_alone) {
   const History wave = sampled(37, 3, [](double t) { return std::sin(4 * t) + 0.3 * t; });

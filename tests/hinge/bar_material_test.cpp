@@ -1,5 +1,3 @@
-#include "hinge/material/material.hpp"
-
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <stdexcept>
@@ -8,6 +6,9 @@
 #include <vector>
 
 #include "hinge/material/bar_update.hpp"
+#include "hinge/material/material.hpp"
+
+BOOST_AUTO_TEST_SUITE(bar_material)
 
 using namespace diptych::material;
 using namespace std::string_literals;
@@ -38,8 +39,6 @@ struct Softening {
 using Three = std::variant<Elastic, Hardening, Softening>;
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(material)
 
 BOOST_AUTO_TEST_CASE(elastic_answers_hookes_law) {
   const Elastic law{1e4, 4.0};

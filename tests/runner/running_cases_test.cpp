@@ -1,5 +1,3 @@
-#include "runner/run/runner.hpp"
-
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -11,8 +9,11 @@
 #include "runner/app/catalogue.hpp"
 #include "runner/app/provenance.hpp"
 #include "runner/run/doubt.hpp"
+#include "runner/run/runner.hpp"
 #include "tests/messages.hpp"
 #include "tests/text.hpp"
+
+BOOST_AUTO_TEST_SUITE(running_cases)
 
 using namespace diptych;
 using namespace diptych::runner;
@@ -36,8 +37,6 @@ bool same(const reports::Run& a, const reports::Run& b) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(runner)
 
 BOOST_AUTO_TEST_CASE(any_number_of_threads_gives_the_same_bits) {
   const std::vector<Case> cases{by_id("bar.step.free-free"), by_id("bar.mode.fixed-free")};
