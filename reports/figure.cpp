@@ -42,7 +42,7 @@ std::string csv_of(const Figure& figure) {
   return out;
 }
 
-void check(const Figure& figure) {
+void check_figure(const Figure& figure) {
   const auto refuse = [&](const std::string& why) {
     throw std::invalid_argument("figure '" + figure.id + "': " + why);
   };
@@ -75,7 +75,7 @@ void check(const Figure& figure) {
 
 Drawn draw(const Figure& figure, const std::filesystem::path& directory, std::string& message) {
   message.clear();
-  check(figure);
+  check_figure(figure);
   return draw_files(
       figure.id, csv_of(figure), [&](std::ostream& gp) { curves::write_script(gp, figure); }, directory, message);
 }

@@ -332,7 +332,7 @@ void write_script(std::ostream& gp, const ProblemFigure& figure) {
 
 // ---- the data
 
-std::string csv_of(const ProblemFigure& figure) {
+std::string csv_of_problem(const ProblemFigure& figure) {
   std::string out = csv_heading(figure.id, figure.title, figure.notes);
   out += "part,quantity,value\n";
   const auto row = [&](const char* part, const char* quantity, const std::string& value) {
@@ -357,7 +357,7 @@ std::string csv_of(const ProblemFigure& figure) {
   return out;
 }
 
-void check(const ProblemFigure& figure) {
+void check_problem(const ProblemFigure& figure) {
   check_id(figure.id);
   const auto refuse = [&](const std::string& why) {
     throw std::invalid_argument("figure '" + figure.id + "': " + why);
@@ -381,9 +381,9 @@ void check(const ProblemFigure& figure) {
 
 Drawn draw(const ProblemFigure& figure, const std::filesystem::path& directory, std::string& message) {
   message.clear();
-  check(figure);
+  check_problem(figure);
   return draw_files(
-      figure.id, csv_of(figure), [&](std::ostream& gp) { write_script(gp, figure); }, directory, message);
+      figure.id, csv_of_problem(figure), [&](std::ostream& gp) { write_script(gp, figure); }, directory, message);
 }
 
 }  // namespace diptych::reports

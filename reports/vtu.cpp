@@ -71,7 +71,7 @@ std::string xml_of(const pugi::xml_document& document) {
 
 std::size_t width_of(const VtuArray& array) { return std::max<std::size_t>(1, array.components.size()); }
 
-void check(const VtuMesh& mesh, std::size_t cells, const std::vector<VtuArray>& arrays) {
+void check_mesh(const VtuMesh& mesh, std::size_t cells, const std::vector<VtuArray>& arrays) {
   const auto refuse = [](const std::string& why) { throw std::invalid_argument("vtu: " + why); };
   const std::size_t points = mesh.x.size();
   if (mesh.y.size() != points) refuse(fmt::format("{} x but {} y", points, mesh.y.size()));
@@ -123,7 +123,7 @@ void write_vtu(const std::filesystem::path& path, const VtuMesh& mesh, const std
   const std::size_t points = mesh.x.size();
   const std::size_t corners = particles ? 1 : static_cast<std::size_t>(std::max(1, mesh.corners));
   const std::size_t cells = particles ? points : mesh.connectivity.size() / corners;
-  check(mesh, cells, arrays);
+  check_mesh(mesh, cells, arrays);
 
   std::vector<std::int64_t> connectivity, offsets;
   for (std::size_t i = 0; i < cells * corners; ++i)

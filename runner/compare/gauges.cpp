@@ -22,7 +22,7 @@ void raise(double& to, double value) {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
-analytic::PlateImpact solution_of(const PlateSpec& plate) {
+analytic::PlateImpact impact_of(const PlateSpec& plate) {
   return analytic::PlateImpact(
       {medium_of(plate), plate.width, plate.height, plate.flyer->thickness, plate.flyer->velocity});
 }
@@ -126,7 +126,7 @@ double mean_over(const History& h, double from, double to) {
 }
 
 ImpactTheory impact_theory(const PlateSpec& plate, double from_face) {
-  const analytic::PlateImpact exact = solution_of(plate);
+  const analytic::PlateImpact exact = impact_of(plate);
   const double x = plate.flyer->thickness + from_face;
   ImpactTheory theory{-exact.plateau(), exact.lateral_ratio(), exact.arrival(x), exact.release(x), nothing, nothing};
   const solid::Failing* failure = plate.failing();

@@ -48,7 +48,7 @@ std::vector<const FigureKind*> kinds_of(const Case& c) {
 }
 
 /// Notes each key that belongs to other kinds of figures of this scene.
-void refuse_keys_of_other_kinds(Table& t, const FigureSpec& figure, const Case& c) {
+void refuse_keys_of_other_figures(Table& t, const FigureSpec& figure, const Case& c) {
   std::map<std::string, Names> owners;
   for (const FigureKind* kind : kinds_of(c))
     for (const std::string& key : kind->keys) owners[key].push_back(kind->id);
@@ -68,7 +68,7 @@ void read_courants(Table& t, FigureSpec& figure) {
   });
 }
 
-void read_parameters_of(Table& t, FigureSpec& figure, const Axes& axes, const Case& c) {
+void read_drawn_parameters(Table& t, FigureSpec& figure, const Axes& axes, const Case& c) {
   t.maybe_table("parameters", [&](Table& p) {
     const auto given = read_values(p, c);
     among_swept(t.place("parameters"), given, c);
@@ -103,7 +103,7 @@ bool read_runs(Table& t, FigureSpec& figure, bool of_one_mesh, const Axes& axes,
     figure.courant = one_of_axis("courant", positive(), axes.courant);
   const bool one_set = t.has("particles") || axes.particles.size() == 1;
   if (one_set) figure.particles = one_of_axis("particles", particles(), axes.particles);
-  read_parameters_of(t, figure, axes, c);
+  read_drawn_parameters(t, figure, axes, c);
 
   bool good =
       (figure.cells > 0 || !of_one_mesh) && figure.courant > 0 && !figure.particles.empty() && t.mistakes() == before;
@@ -146,7 +146,7 @@ FigureSpec read_figure(Table& t, const Case& c) {
   Names names;
   for (const FigureKind* kind : kinds_of(c)) names.push_back(kind->id);
   figure.kind = t.get("kind", one_of(names), names.front());
-  refuse_keys_of_other_kinds(t, figure, c);
+  refuse_keys_of_other_figures(t, figure, c);
   const FigureKind& kind = *figure_kinds().find(figure.kind);
   const auto takes = [&](const char* key) { return contains(kind.keys, std::string(key)); };
   if (takes("times")) figure.times = read_times(t, c);

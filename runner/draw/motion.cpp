@@ -34,7 +34,7 @@ void read_motion(Table& t, const Case&, FigureSpec& figure) {
 }
 
 /// Part of paths that lies between two times, with one point more on either side.
-reports::Curve between(const reports::Curve& paths, double from, double to) {
+reports::Curve part_between(const reports::Curve& paths, double from, double to) {
   reports::Curve part;
   const auto inside = [&](std::size_t i) { return i < paths.y.size() && paths.y[i] >= from && paths.y[i] <= to; };
   for (std::size_t i = 0; i < paths.x.size(); ++i) {
@@ -92,7 +92,7 @@ void draw_motion(const Case& c, const FigureSpec& spec, reports::Case& result) {
     near.x_range = zoom->x;
     near.y_range = zoom->t;
     for (const auto& series : whole.series)
-      near.series.push_back({series.label, series.kind, between(series.curve, zoom->t[0], zoom->t[1])});
+      near.series.push_back({series.label, series.kind, part_between(series.curve, zoom->t[0], zoom->t[1])});
     figure.panels = {std::move(whole), std::move(near)};
   }
   result.figures.push_back(std::move(figure));

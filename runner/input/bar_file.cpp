@@ -210,7 +210,7 @@ void read_initial(Table& t, Case& c) {
     t.place("velocity").say("found beside the velocity of a bar; allowed: either bar.velocity or initial.velocity");
 }
 
-void read_exact(Table& t, Case& c) {
+void read_solution(Table& t, Case& c) {
   ExactSpec& exact = c.exact;
   Names solutions;
   for (const analytic::BarSolution& row : analytic::bar_solutions()) solutions.push_back(row.name);
@@ -284,7 +284,7 @@ void read_bar_case(Table& file, Case& c) {
     if (bars_are_read) check_features(t.place("features"), c);
   });
   file.maybe_table("exact", [&](Table& t) {
-    read_exact(t, c);
+    read_solution(t, c);
     if (loads_are_read && bars_are_read) check_solution(t.place("solution"), c);
   });
   for (const AxesBlock& block : blocks) {

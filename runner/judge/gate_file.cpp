@@ -90,7 +90,7 @@ void check_where(const Place& place, const GateSpec& gate, const Case& c) {
 }
 
 /// Notes each key that belongs to other kinds of gates of this scene.
-void refuse_keys_of_other_kinds(Table& t, const GateSpec& gate, const Case& c) {
+void refuse_keys_of_other_gates(Table& t, const GateSpec& gate, const Case& c) {
   std::map<std::string, Names> owners;
   for (const GateKind* kind : gate_kinds(c)) {
     for (const GateKey& key : kind->keys) {
@@ -119,7 +119,7 @@ GateSpec read_gate(Table& t, const Case& c) {
   t.maybe_table("where", [&](Table& where) { gate.where = read_where(where, c); });
   const bool where_is_read = t.mistakes() == before;
 
-  refuse_keys_of_other_kinds(t, gate, c);
+  refuse_keys_of_other_gates(t, gate, c);
   if (!gate.kind.empty()) {
     const GateKind& kind = gate_kind(gate.kind);
     if (kind.has("times", gate.quantity)) gate.times = read_times(t, c);

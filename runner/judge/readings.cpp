@@ -50,7 +50,7 @@ void read_error(const Case& c, const GateSpec& gate, const JudgedRun& judged, co
   }
 }
 
-void read_probe(const Case& c, const GateSpec& gate, const JudgedRun& judged, std::vector<Reading>& readings) {
+void add_probe_readings(const Case& c, const GateSpec& gate, const JudgedRun& judged, std::vector<Reading>& readings) {
   const std::string id = gate.quantity.substr(gate.quantity.find('.') + 1);
   for (const auto& sample : judged.run->samples) {
     if (!wanted(gate, sample.asked)) continue;
@@ -100,7 +100,7 @@ std::vector<Reading> read(const Case& c, const GateSpec& gate, const std::vector
     if (norm)
       read_error(c, gate, judged, theory, readings);
     else if (probe)
-      read_probe(c, gate, judged, readings);
+      add_probe_readings(c, gate, judged, readings);
     else
       read_measure(gate, judged, theory, readings);
     if (readings.size() - before != planned)
