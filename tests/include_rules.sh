@@ -30,8 +30,8 @@ named=$(grep -rnE '"(fem|mpm)[-"]' runner reports --include='*.[ch]pp' | grep -v
 only runner/input 'hinge|analytic|reports|runner/(input|panel|diffusion_alone)'
 only runner/compare 'hinge|analytic|reports|runner/(input|compare|panel)'
 only runner/run 'hinge|analytic|reports|runner/(input|compare|run|panel|diffusion_alone)'
-only runner/judge 'hinge|analytic|reports|runner/(input|compare|run|judge|panel)'
-only runner/draw 'hinge|analytic|reports|runner/(input|compare|draw|panel)'
+only runner/judge 'hinge|analytic|reports|runner/(input|compare|run|judge|panel|registry)'
+only runner/draw 'hinge|analytic|reports|runner/(input|compare|draw|panel|registry)'
 only runner/app 'hinge|analytic|reports|runner'
 echo "$looked files"
 exit "$broken"
