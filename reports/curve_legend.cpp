@@ -55,6 +55,7 @@ std::string Entry::text() const {
 }
 
 const char* style_of(const Entry& entry) {
+  if (entry.joined) return "linespoints";
   if (!entry.appearance.markers) return "lines";
   return entry.interval > 1 || entry.motion ? "linespoints" : "points";
 }
@@ -90,7 +91,9 @@ std::vector<Entry> entries_of(const Figure& figure) {
         entry = std::prev(entries.end());
         entry->motion = figure.motion;
       }
-      if (entry->appearance.markers)
+      const bool theory = series.kind == "exact" || series.kind.ends_with("-thin");
+      entry->joined = (figure.x_powers || figure.y_powers) && !theory;
+      if (entry->appearance.markers && !entry->joined)
         entry->interval = std::max(entry->interval, interval_of(figure, panel, series.curve));
     }
   double x = left;

@@ -31,6 +31,7 @@ struct Entry {
   Look appearance;
   std::size_t interval = 1;  ///< a marker at every so many points; in a motion diagram the most of all panels
   bool motion = false;
+  bool joined = false;   ///< where axes are powers of ten: a marker at every point and lines between them
   double x = 0;          ///< of its sample in the legend [px]
   std::size_t line = 0;  ///< of the legend, the first of this entry's
   std::vector<std::string> lines = {};

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <iomanip>
 #include <ostream>
 #include <string_view>
@@ -28,7 +29,11 @@ void write_head(const Sheet& sheet, const Figure& figure, const Heading& heading
     const Entry& entry = entries[i];
     std::string style = entry.appearance.line;
     // Markers joined by a line: a thin one, which leaves what lies beneath in sight.
-    if (entry.appearance.markers) {
+    if (entry.joined && !entry.appearance.markers)
+      style += " pt 7 ps 0.5";
+    else if (entry.joined)
+      style += " lw 0.9";
+    else if (entry.appearance.markers) {
       const char *joined = entry.kind.ends_with("-thin") ? " lw 0.5" : " lw 0.9", *alone = " lw 1.3";
       style += entry.motion || entry.interval > 1 ? joined : alone;
       if (!entry.motion && entry.interval > 1) style += fmt::format(" pi {}", entry.interval);
@@ -59,7 +64,7 @@ void write_head(const Sheet& sheet, const Figure& figure, const Heading& heading
     if (style_of(entry) != std::string_view("points"))
       gp << fmt::format("set arrow from screen {:.6f},{} to screen {:.6f},{} nohead {}\n", entry.x / width, at,
                         (entry.x + legend_sample) / width, at, style);
-    if (entry.appearance.markers)
+    if (entry.appearance.markers || entry.joined)
       gp << fmt::format("set label '' at screen {:.6f},{} point {}\n", (entry.x + legend_sample / 2) / width, at,
                         style);
     for (std::size_t k = 0; k < entry.lines.size(); ++k)
@@ -189,6 +194,27 @@ std::vector<std::pair<double, double>> points_of(const Element& element) {
   return points;
 }
 
+/// Ticks at powers of ten, and at twice and five times them where there are few; positions are their logarithms.
+void write_powers(std::ostream& gp, char axis, double low, double high) {
+  const auto raised = [](int exponent) {
+    static const char* const digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+    std::string text = exponent < 0 ? "⁻" : "";
+    for (const char c : std::to_string(std::abs(exponent))) text += digits[c - '0'];
+    return text;
+  };
+  const bool few = high - low < 2.5;
+  const int step = std::max(1, static_cast<int>((high - low) / 8));
+  std::string ticks;
+  for (int k = static_cast<int>(std::floor(low)); k <= high; ++k)
+    for (const int times : {1, 2, 5}) {
+      const double at = k + std::log10(times);
+      if (at < low || at > high || (times > 1 && !few) || (times == 1 && k % step != 0)) continue;
+      ticks += fmt::format("{}'{}10{}' {}", ticks.empty() ? "" : ", ", times > 1 ? std::to_string(times) + "·" : "",
+                           raised(k), at);
+    }
+  gp << "set " << axis << "tics (" << ticks << ")\n";
+}
+
 void write_panel(const Sheet& sheet, const Figure& figure, std::size_t index, const Layout& layout,
                  const std::vector<Entry>& entries) {
   const Figure::Panel& panel = figure.panels[index];
@@ -210,6 +236,8 @@ void write_panel(const Sheet& sheet, const Figure& figure, std::size_t index, co
     gp << fmt::format("set xrange [{}:{}]; set yrange [{}:{}]\n", frame.x_min, frame.x_max, frame.y_min, frame.y_max);
   gp << "set format x " << (lowest || layout.own.x_ticks() ? "'%g'" : "''") << "; set format y "
      << (column == 0 || layout.own.y_ticks() ? "'%g'" : "''") << '\n';
+  if (figure.x_powers) write_powers(gp, 'x', frame.x_min, frame.x_max);
+  if (figure.y_powers) write_powers(gp, 'y', frame.y_min, frame.y_max);
   if (layout.own.y_label) {
     const std::vector<std::string> lines =
         lines_of(panel.y_label.empty() ? figure.y_label : panel.y_label, layout.panel_height, label_char);

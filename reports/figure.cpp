@@ -28,7 +28,9 @@ std::string csv_of(const Figure& figure) {
                                   span.kind, span.label));
     for (const Figure::Mark& mark : panel.marks)
       out += csv_note("mark of panel '" + panel.label + "'",
-                      fmt::format("{} = {}: {}", mark.vertical ? 'x' : 'y', mark.at, mark.label));
+                      fmt::format("{} = {}: {}", mark.vertical ? 'x' : 'y',
+                                  (mark.vertical ? figure.x_powers : figure.y_powers) ? std::pow(10, mark.at) : mark.at,
+                                  mark.label));
     for (const Figure::Series& series : panel.series) breaks = breaks || curves::broken(series.curve);
   }
   if (breaks) out += "# nan: a line ends here; the next row begins a new one\n";
@@ -37,7 +39,8 @@ std::string csv_of(const Figure& figure) {
     for (const Figure::Series& series : panel.series) {
       const std::string start = csv_field(panel.label) + "," + csv_field(series.label) + ",";
       for (std::size_t i = 0; i < series.curve.x.size(); ++i)
-        out += start + csv_number(series.curve.x[i]) + "," + csv_number(series.curve.y[i]) + "\n";
+        out += start + csv_number(figure.x_powers ? std::pow(10, series.curve.x[i]) : series.curve.x[i]) + "," +
+               csv_number(figure.y_powers ? std::pow(10, series.curve.y[i]) : series.curve.y[i]) + "\n";
     }
   return out;
 }

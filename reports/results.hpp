@@ -173,6 +173,7 @@ struct Figure {
   /// from the start of each path, above all lines, and exact paths below all; a panel that magnifies a part of another
   /// is framed there.
   bool motion = false;
+  bool x_powers = false, y_powers = false;  ///< all x, or y, are log10 of what is meant; ticks are powers of ten
   struct Series {
     std::string label;
     /// "exact", or of one of the looks, "fem"; "fem-thin": a second quantity or run of the same method, in its colour

@@ -1,24 +1,14 @@
 // The tables of a case, before they are text or LaTeX, and what all tables read from its runs. For reports/ alone.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "reports/field_norms.hpp"
 #include "reports/results.hpp"
 
 namespace diptych::reports {
-
-/// One of the three norms of a FieldError.
-struct Norm {
-  const char* name;
-  double FieldError::*measured;
-  std::optional<double> FieldError::*predicted;
-};
-inline const std::array<Norm, 3> norms{{{"L1", &FieldError::l1, &FieldError::predicted_l1},
-                                        {"L2", &FieldError::l2, &FieldError::predicted_l2},
-                                        {"Linf", &FieldError::linf, &FieldError::predicted_linf}}};
 
 /// Runs that differ in the mesh alone, coarse to fine.
 struct Group {

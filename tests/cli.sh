@@ -22,6 +22,21 @@ expect 0 'shadow-energy' "$program" list bar.energy
 expect 0 '^max = 1e-12$' "$program" list --declarations bar.energy/shadow-energy
 expect 0 'fixed–free' "$program" show bar.energy
 
+# What accuracy costs.
+expect 0 'fem N=100 C=1 .*front' "$program" trade bar.step.fixed-free --rounds 0 --quantity stress.L1 --out traded
+expect 0 '^fem N=100 C=1,fem C=1,,fem,100,' cat traded/trade/bar.step.fixed-free.csv
+expect 0 'mpm-usl N=100 C=0.75 ppc=1  +unstable' "$program" trade bar.step.fixed-free --rounds 0 --over courant=0.75 --out traded
+expect 0 'fem N=50 C=0.9: 0.449 %' "$program" pick bar.mode.fixed-free --error 1%
+expect 0 'confirmed' "$program" pick bar.mode.fixed-free --error 0.1%
+expect 10 'none of the measured settings does' "$program" pick bar.mode.fixed-free --error 1e-7
+expect 10 'none of the measured settings does' "$program" pick bar.mode.fixed-free --error 1% --memory 100
+expect 14 'allowed: 1% or 0.01' "$program" pick bar.mode.fixed-free --error much
+expect 14 '; did you mean "stress.L1"' "$program" trade bar.mode.fixed-free --rounds 0 --quantity stres.L1 --out traded
+expect 14 'time: found 0.123; allowed' "$program" trade bar.mode.fixed-free --rounds 0 --time 0.123 --out traded
+expect 14 'did you mean "courant"' "$program" trade bar.mode.fixed-free --over courrant=1
+expect 14 '2 cases; allowed: one' "$program" trade bar.mode.fixed-free bar.energy
+expect 14 'found "plain"; allowed: "", "plane-stress"' "$program" pick plate.s-wave --error 1% --scene plain
+
 # A scene of one's own, and what happens to a gate that cannot hold.
 cat > own.toml <<'TOML'
 schema = 1

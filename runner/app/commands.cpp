@@ -4,23 +4,18 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <boost/timer/progress_display.hpp>
 #include <cstdio>
-#include <iostream>
-#include <memory>
 #include <optional>
 #include <set>
-#include <thread>
 
-#include "reports/figure.hpp"
 #include "reports/files.hpp"
 #include "reports/page.hpp"
-#include "reports/plate_figure.hpp"
 #include "reports/tables.hpp"
 #include "reports/vtu.hpp"
 #include "runner/app/case_file.hpp"
 #include "runner/app/catalogue.hpp"
 #include "runner/app/provenance.hpp"
+#include "runner/app/showing.hpp"
 #include "runner/draw/figure_kinds.hpp"
 #include "runner/input/build.hpp"
 #include "runner/input/plate_build.hpp"
@@ -29,24 +24,6 @@
 
 namespace diptych::runner {
 namespace {
-
-int threads_of(const Options& options) {
-  return options.threads > 0 ? options.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
-
-/// A bar on a terminal, a plain line every quarter of the way elsewhere; on standard error, so results stay clean.
-std::function<void(std::size_t, std::size_t)> progress() {
-  if (isatty(STDERR_FILENO)) {
-    auto bar = std::make_shared<std::unique_ptr<boost::timer::progress_display>>();
-    return [bar](std::size_t done, std::size_t total) {
-      if (!*bar) *bar = std::make_unique<boost::timer::progress_display>(total, std::cerr);
-      **bar += done - (*bar)->count();
-    };
-  }
-  return [](std::size_t done, std::size_t total) {
-    if (done == total || done * 4 / total != (done - 1) * 4 / total) fmt::print(stderr, "{} of {} runs\n", done, total);
-  };
-}
 
 /// Runs, judges every gate that could be judged, and makes the figures.
 enum class Purpose { judge, show };  // what no gate speaks of is run only to be shown
@@ -191,53 +168,6 @@ void write_fields(const reports::Case& result, const std::filesystem::path& dire
       fmt::print("{}\n", path.string());
     }
   }
-}
-
-/// Where results are to go must take them before the runs are paid for.
-void prepare(const std::filesystem::path& out) {
-  std::error_code problem;
-  std::filesystem::create_directories(out, problem);
-  if (problem || access(out.c_str(), W_OK) != 0) {
-    throw InputError(fmt::format("--out: cannot write to {}: {}", out.string(),
-                                 problem ? problem.message() : "permission denied or read-only"));
-  }
-}
-
-/// Draws every figure whose id is wanted (all for an empty list); returns how many pictures could not be drawn.
-int draw_figures(const std::vector<reports::Case>& results, const std::filesystem::path& directory,
-                 const std::set<std::string>& wanted) {
-  int undrawn = 0;
-  bool missing = false;
-  const auto draw_each = [&](const auto& figures) {
-    for (const auto& figure : figures) {
-      const std::string page = figure.id.substr(0, figure.id.rfind('.'));  // a page's pictures go by its name
-      if (!wanted.empty() && !wanted.count(figure.id) && !wanted.count(page)) continue;
-      std::string message;
-      const reports::Drawn drawn = reports::draw(figure, directory, message);
-      if (drawn == reports::Drawn::yes) {
-        fmt::print("{}\n", (directory / (figure.id + ".svg")).string());
-        continue;
-      }
-      missing = missing || drawn == reports::Drawn::gnuplot_missing;
-      undrawn += drawn == reports::Drawn::gnuplot_failed;
-      fmt::print("{}  (script and data only)\n", (directory / (figure.id + ".gp")).string());
-      if (drawn == reports::Drawn::gnuplot_failed) fmt::print(stderr, "gnuplot failed on {}: {}\n", figure.id, message);
-    }
-  };
-  for (const auto& result : results) {
-    draw_each(result.figures);
-    draw_each(result.problem_figures);
-    draw_each(result.plate_figures);
-    for (const auto& [name, page] : result.pages) {
-      if (!wanted.empty() && !wanted.count(name)) continue;
-      const auto path = directory / (name + ".html");
-      reports::write_page(page, path);
-      fmt::print("{}\n", path.string());
-    }
-  }
-  if (missing)
-    fmt::print(stderr, "gnuplot is not installed: no pictures, all else is complete (apt-get install gnuplot-nox)\n");
-  return undrawn;
 }
 
 bool any_cancelled(const std::vector<reports::Case>& results) {
@@ -392,9 +322,8 @@ int test_command(const Options& options) {
   if (chosen.empty()) chosen.assign(parts.begin(), parts.end() - 2);
   for (const std::string& part : chosen) {
     if (contains(parts, part)) continue;
-    const std::string hint = suggestion(part, parts);
-    throw InputError(fmt::format("no part of the tests is called '{}'; there are {}{}{}", part, listed(parts),
-                                 hint.empty() ? "" : "; ", hint));
+    throw InputError(
+        fmt::format("no part of the tests is called '{}'; there are {}{}", part, listed(parts), hint_of(part, parts)));
   }
   if (options.quick) {
     std::erase(chosen, "teeth");

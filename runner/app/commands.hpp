@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,14 @@ struct Options {
   std::vector<std::string> only;  ///< run: the labels of the runs to make; empty: all of them
   bool fields = false;            ///< run: also write all fields at the sample times
   Books books = Books::off;       ///< kept of every run, beside what gates ask for
+  std::vector<std::string> over;  ///< trade, pick: more values of the axes
+  std::string scene;              ///< trade, pick: variant and parameters, "plane-stress v0=0.1"; empty: the first
+  std::string quantity;           ///< trade, pick: "stress.L2"; empty: the first
+  std::optional<double> time;     ///< trade, pick: the sample time; none: the last
+  int rounds = 5;                 ///< trade, pick: in which runs are timed
+  std::string error;              ///< pick: at most, "1%"
+  std::optional<double> seconds;  ///< pick: at most
+  std::string memory;             ///< pick: at most, "1G"
   std::string pattern;            ///< test: only the tests whose names it fits
   bool targets = false;           ///< test: only name what must be built for them
 };
@@ -28,6 +37,8 @@ struct Options {
 int run_command(const Options&, const std::atomic<bool>& cancelled);
 int gate_command(const Options&, const std::atomic<bool>& cancelled);
 int explain_command(const Options&, const std::atomic<bool>& cancelled);
+int trade_command(const Options&, const std::atomic<bool>& cancelled);
+int pick_command(const Options&, const std::atomic<bool>& cancelled);
 int list_command(const Options&);
 int show_command(const Options&);
 int paper_command(const Options&, const std::atomic<bool>& cancelled);

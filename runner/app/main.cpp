@@ -81,6 +81,36 @@ int main(int argc, char** argv) {
     status = run_command(options, cancelled);
   });
 
+  const auto add_trade = [&](CLI::App* command) {
+    add_cases(command, true);
+    command
+        ->add_option("--over", options.over,
+                     "more values of an axis or a parameter: courant=0.1:0.9:9, cells=20,40, particles=1,2, "
+                     "method=fem; may be given again")
+        ->allow_extra_args(false);
+    command->add_option("--scene", options.scene,
+                        "variant and swept parameters, as runs are labelled; the first without it");
+    command->add_option("--quantity", options.quantity, "what is looked at: stress.L2, velocity.Linf, probe.ID");
+    command->add_option("--time", options.time, "a sample time, in the case's unit; the last without it");
+    command->add_option("--rounds", options.rounds, "in which every run is timed; 0: not at all")
+        ->check(CLI::Range(0, 1000))
+        ->capture_default_str();
+    add_threads(command);
+  };
+  auto* trade = app.add_subcommand("trade", "every setting of a case, its error against its cost");
+  add_trade(trade);
+  add_out(trade);
+  trade->footer("Example: diptych trade bar.step.fixed-free --over courant=0.5:0.95:4 --quantity stress.L1");
+  trade->callback([&] { status = trade_command(options, cancelled); });
+
+  auto* pick = app.add_subcommand("pick", "the cheapest measured setting of a case that is near enough");
+  add_trade(pick);
+  pick->add_option("--error", options.error, "at most: 1% or 0.01, of the quantity's scale")->required();
+  pick->add_option("--seconds", options.seconds, "at most, on one thread")->check(CLI::PositiveNumber);
+  pick->add_option("--memory", options.memory, "at most, of the solver's arrays: 512k, 100M, 1G");
+  pick->footer("Example: diptych pick bar.step.fixed-free --error 10% --quantity stress.L1 --time 1.7");
+  pick->callback([&] { status = pick_command(options, cancelled); });
+
   auto* gate = app.add_subcommand("gate", "run and judge; 0 only if every declared gate was judged and passed");
   add_cases(gate, false);
   gate->add_flag("--quick", options.quick, "leave out the gates marked slow, and say which");

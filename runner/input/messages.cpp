@@ -85,4 +85,9 @@ std::string suggestion(const std::string& word, const Names& allowed) {
   return near.empty() ? "" : "did you mean " + words(near) + "?";
 }
 
+std::string hint_of(const std::string& word, const Names& allowed) {
+  const std::string hint = suggestion(word, allowed);
+  return hint.empty() ? "" : "; " + hint;
+}
+
 }  // namespace diptych::runner

@@ -44,5 +44,7 @@ bool contains(const Names&, const std::string& name);
 std::string nearest(const std::string& word, const Names& allowed);
 /// "did you mean ...?", or "" if none is near.
 std::string suggestion(const std::string& word, const Names& allowed);
+/// The same after a semicolon, where a sentence goes on with it.
+std::string hint_of(const std::string& word, const Names& allowed);
 
 }  // namespace diptych::runner

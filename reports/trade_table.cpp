@@ -1,0 +1,171 @@
+#include "reports/trade_table.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "reports/csv.hpp"
+#include "reports/text.hpp"
+
+namespace diptych::reports {
+namespace {
+
+const char* unit_of_cost(Cost cost) {
+  return cost == Cost::work ? "updates" : cost == Cost::seconds ? "seconds" : "bytes";
+}
+
+std::string time_words(const TradePoint& point) {
+  if (point.rounds == 0) return "-";
+  const std::string spread = point.rounds > 1 ? fmt::format(" ± {:.0f} %", 100 * point.spread) : "";
+  return fmt::format("{:.3g}{}", point.seconds, spread);
+}
+
+}  // namespace
+
+std::string trade_text(const Trade& trade, const Aim& aim, Cost cost) {
+  std::string out = fmt::format("{}: error of {} at t = {:g} {} against cost\n", trade.case_id, aim.quantity, aim.time,
+                                trade.time_unit);
+  const std::vector<bool> front = on_front(trade, aim, cost);
+  std::vector<std::size_t> order(trade.points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return cost_of(trade.points[a], cost) < cost_of(trade.points[b], cost);
+  });
+  std::size_t widest = 3;
+  for (const TradePoint& point : trade.points) widest = std::max(widest, characters(point.label));
+  const auto line = [&](const std::string& name, const std::string& error, const std::string& predicted,
+                        const std::string& updates, const std::string& bytes, const std::string& seconds,
+                        const std::string& mark) {
+    const std::string padded = name + std::string(widest - characters(name), ' ');
+    std::string text = fmt::format("  {}  {:>20} {:>10} {:>10} {:>9} ", padded, error, predicted, updates, bytes);
+    const std::size_t column = 14, own = characters(seconds);
+    text += std::string(own < column ? column - own : 0, ' ') + seconds + (mark.empty() ? "" : "  " + mark);
+    return text + '\n';
+  };
+  out += line("run", "error", "predicted", "updates", "bytes", "seconds", "");
+  for (const std::size_t i : order) {
+    const TradePoint& point = trade.points[i];
+    const TradeError* found = point.completed() ? point.error_of(aim.quantity, aim.time) : nullptr;
+    const std::string error = !found            ? (point.completed() ? "none" : point.status)
+                              : found->band > 0 ? fmt::format("{:.3e} (U {:.0e})", found->error, found->band)
+                                                : fmt::format("{:.3e}", found->error);
+    out += line(point.label, error, found && found->predicted ? fmt::format("{:.3e}", *found->predicted) : "-",
+                fmt::format("{:.3g}", point.work()), fmt::format("{:.3g}", static_cast<double>(point.bytes)),
+                time_words(point), front[i] ? "front" : "");
+    if (!point.completed() && !point.message.empty()) out += fmt::format("      {}\n", point.message);
+  }
+  return out + fmt::format(
+                   "updates: of elements or particles, and of nodes; seconds: median of the rounds ± half their "
+                   "interquartile range,\none thread, no books; front: nothing is as near for fewer {}\n",
+                   unit_of_cost(cost));
+}
+
+std::string trade_csv(const Trade& trade) {
+  std::string out = csv_note("case", trade.case_id) + csv_note("title", trade.title) +
+                    csv_note("band", "± of the error where its reference is extrapolated; 0: the reference is exact") +
+                    csv_note("seconds",
+                             "median over the rounds, one thread, no books; spread: half the interquartile "
+                             "range, part of the median; empty where it was not timed") +
+                    csv_line({"run",
+                              "setting",
+                              "scene",
+                              "method",
+                              "cells",
+                              "cell_size",
+                              "status",
+                              "message",
+                              "unknowns",
+                              "steps",
+                              "element_steps",
+                              "particle_steps",
+                              "node_steps",
+                              "bytes",
+                              "rounds",
+                              "seconds",
+                              "spread",
+                              "quantity",
+                              "time_" + trade.time_unit,
+                              "error",
+                              "band",
+                              "predicted"});
+  for (const TradePoint& point : trade.points) {
+    const bool timed = point.rounds > 0;
+    const std::vector<std::string> head{point.label,
+                                        point.setting,
+                                        point.scene,
+                                        point.method,
+                                        std::to_string(point.cells),
+                                        csv_number(point.cell_size),
+                                        point.status,
+                                        point.message,
+                                        std::to_string(point.unknowns),
+                                        std::to_string(point.steps),
+                                        std::to_string(point.element_steps),
+                                        std::to_string(point.particle_steps),
+                                        std::to_string(point.node_steps),
+                                        std::to_string(point.bytes),
+                                        std::to_string(point.rounds),
+                                        timed ? csv_number(point.seconds) : "",
+                                        timed ? csv_number(point.spread) : ""};
+    for (const TradeError& one : point.errors) {
+      std::vector<std::string> cells = head;
+      cells.insert(cells.end(), {one.quantity, csv_number(one.time), csv_number(one.error), csv_number(one.band),
+                                 one.predicted ? csv_number(*one.predicted) : ""});
+      out += csv_line(cells);
+    }
+    if (!point.errors.empty()) continue;
+    std::vector<std::string> cells = head;
+    cells.insert(cells.end(), {"", "", "", "", ""});
+    out += csv_line(cells);
+  }
+  return out;
+}
+
+std::string trade_json(const Trade& trade, const Provenance& made_by) {
+  using nlohmann::ordered_json;
+  // JSON has no numbers that are not finite: they are null.
+  const auto number = [](double value) { return std::isfinite(value) ? ordered_json(value) : ordered_json(); };
+  ordered_json all{{"type", "trade"},
+                   {"case", trade.case_id},
+                   {"title", trade.title},
+                   {"time_unit", trade.time_unit},
+                   {"commit", made_by.commit},
+                   {"dirty", made_by.dirty},
+                   {"compiler", made_by.compiler},
+                   {"flags", made_by.flags},
+                   {"cpu", made_by.cpu},
+                   {"points", ordered_json::array()}};
+  for (const TradePoint& point : trade.points) {
+    ordered_json one{{"run", point.label},
+                     {"setting", point.setting},
+                     {"scene", point.scene},
+                     {"method", point.method},
+                     {"cells", point.cells},
+                     {"cell_size", number(point.cell_size)},
+                     {"status", point.status},
+                     {"message", point.message},
+                     {"unknowns", point.unknowns},
+                     {"steps", point.steps},
+                     {"element_steps", point.element_steps},
+                     {"particle_steps", point.particle_steps},
+                     {"node_steps", point.node_steps},
+                     {"bytes", point.bytes},
+                     {"rounds", point.rounds},
+                     {"seconds", point.rounds > 0 ? number(point.seconds) : ordered_json()},
+                     {"spread", point.rounds > 0 ? number(point.spread) : ordered_json()},
+                     {"errors", ordered_json::array()}};
+    for (const TradeError& error : point.errors)
+      one["errors"].push_back({{"quantity", error.quantity},
+                               {"time", number(error.time)},
+                               {"error", number(error.error)},
+                               {"band", number(error.band)},
+                               {"predicted", error.predicted ? number(*error.predicted) : ordered_json()}});
+    all["points"].push_back(std::move(one));
+  }
+  return all.dump() + '\n';
+}
+
+}  // namespace diptych::reports

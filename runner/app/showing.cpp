@@ -1,0 +1,81 @@
+#include "runner/app/showing.hpp"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <boost/timer/progress_display.hpp>
+#include <iostream>
+#include <memory>
+#include <thread>
+
+#include "reports/figure.hpp"
+#include "reports/page.hpp"
+#include "reports/plate_figure.hpp"
+#include "runner/input/messages.hpp"
+
+namespace diptych::runner {
+
+int threads_of(const Options& options) {
+  return options.threads > 0 ? options.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+std::function<void(std::size_t, std::size_t)> progress() {
+  if (isatty(STDERR_FILENO)) {
+    auto bar = std::make_shared<std::unique_ptr<boost::timer::progress_display>>();
+    return [bar](std::size_t done, std::size_t total) {
+      if (!*bar) *bar = std::make_unique<boost::timer::progress_display>(total, std::cerr);
+      **bar += done - (*bar)->count();
+    };
+  }
+  return [](std::size_t done, std::size_t total) {
+    if (done == total || done * 4 / total != (done - 1) * 4 / total) fmt::print(stderr, "{} of {} runs\n", done, total);
+  };
+}
+
+void prepare(const std::filesystem::path& out) {
+  std::error_code problem;
+  std::filesystem::create_directories(out, problem);
+  if (problem || access(out.c_str(), W_OK) != 0) {
+    throw InputError(fmt::format("--out: cannot write to {}: {}", out.string(),
+                                 problem ? problem.message() : "permission denied or read-only"));
+  }
+}
+
+int draw_figures(const std::vector<reports::Case>& results, const std::filesystem::path& directory,
+                 const std::set<std::string>& wanted) {
+  int undrawn = 0;
+  bool missing = false;
+  const auto draw_each = [&](const auto& figures) {
+    for (const auto& figure : figures) {
+      const std::string page = figure.id.substr(0, figure.id.rfind('.'));  // a page's pictures go by its name
+      if (!wanted.empty() && !wanted.count(figure.id) && !wanted.count(page)) continue;
+      std::string message;
+      const reports::Drawn drawn = reports::draw(figure, directory, message);
+      if (drawn == reports::Drawn::yes) {
+        fmt::print("{}\n", (directory / (figure.id + ".svg")).string());
+        continue;
+      }
+      missing = missing || drawn == reports::Drawn::gnuplot_missing;
+      undrawn += drawn == reports::Drawn::gnuplot_failed;
+      fmt::print("{}  (script and data only)\n", (directory / (figure.id + ".gp")).string());
+      if (drawn == reports::Drawn::gnuplot_failed) fmt::print(stderr, "gnuplot failed on {}: {}\n", figure.id, message);
+    }
+  };
+  for (const auto& result : results) {
+    draw_each(result.figures);
+    draw_each(result.problem_figures);
+    draw_each(result.plate_figures);
+    for (const auto& [name, page] : result.pages) {
+      if (!wanted.empty() && !wanted.count(name)) continue;
+      const auto path = directory / (name + ".html");
+      reports::write_page(page, path);
+      fmt::print("{}\n", path.string());
+    }
+  }
+  if (missing)
+    fmt::print(stderr, "gnuplot is not installed: no pictures, all else is complete (apt-get install gnuplot-nox)\n");
+  return undrawn;
+}
+
+}  // namespace diptych::runner

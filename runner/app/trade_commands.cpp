@@ -1,0 +1,158 @@
+// The commands trade and pick.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <thread>
+
+#include "reports/figure.hpp"
+#include "reports/files.hpp"
+#include "reports/trade_table.hpp"
+#include "runner/app/catalogue.hpp"
+#include "runner/app/commands.hpp"
+#include "runner/app/provenance.hpp"
+#include "runner/app/showing.hpp"
+#include "runner/judge/gates.hpp"
+#include "runner/trade/over.hpp"
+#include "runner/trade/pick.hpp"
+#include "runner/trade/trade.hpp"
+#include "runner/trade/work_precision.hpp"
+
+namespace diptych::runner {
+namespace {
+
+/// The one case that is meant.
+Case case_of_trade(const Options& options) {
+  std::vector<Case> cases = select_cases(options.selectors);
+  if (cases.size() != 1)
+    throw InputError(fmt::format("{}: {} cases; allowed: one", listed(options.selectors), cases.size()));
+  add_values(cases.front(), options.over);
+  return cases.front();
+}
+
+Running running_of(const Options& options, const std::atomic<bool>& cancelled) {
+  Running running{threads_of(options), &cancelled};
+  running.progress = progress();
+  return running;
+}
+
+/// What is asked for by --scene: a variant and values of swept parameters, which make another scene of the case.
+std::string scene_of(const Options& options, const reports::Trade& trade) {
+  Names scenes;
+  for (const reports::TradePoint& point : trade.points)
+    if (!contains(scenes, point.scene)) scenes.push_back(point.scene);
+  if (options.scene.empty()) {
+    if (scenes.size() > 1)
+      fmt::print(stderr, "{}: of its scenes the first, {}; with --scene one of {}\n", trade.case_id,
+                 words(scenes.front()), joined(scenes));
+    return scenes.front();
+  }
+  if (!contains(scenes, options.scene))
+    throw InputError(fmt::format("--scene: found {}; allowed: {}{}", words(options.scene), joined(scenes),
+                                 hint_of(options.scene, scenes)));
+  return options.scene;
+}
+
+/// What is asked for by --quantity and --time, among what has errors.
+reports::Aim aim_of(const Options& options, const reports::Trade& trade) {
+  const std::vector<reports::Aim> aims = trade.aims();
+  if (aims.empty())
+    throw InputError(
+        fmt::format("{}: no run that completed has an error: neither is an exact solution known nor has a "
+                    "probe four meshes that settle",
+                    trade.case_id));
+  Names quantities;
+  for (const reports::Aim& aim : aims)
+    if (!contains(quantities, aim.quantity)) quantities.push_back(aim.quantity);
+  const std::string preferred = contains(quantities, std::string("stress.L2")) ? "stress.L2" : quantities.front();
+  const std::string quantity = options.quantity.empty() ? preferred : options.quantity;
+  if (!contains(quantities, quantity))
+    throw InputError(fmt::format("--quantity: found {}; allowed: {}{}", words(quantity), joined(quantities),
+                                 hint_of(quantity, quantities)));
+  std::vector<double> times;
+  for (const reports::Aim& aim : aims)
+    if (aim.quantity == quantity) times.push_back(aim.time);
+  const double time = options.time.value_or(*std::max_element(times.begin(), times.end()));
+  if (std::find(times.begin(), times.end(), time) == times.end())
+    throw InputError(fmt::format("--time: found {}; allowed: {}", words(time), joined(times)));
+  return {quantity, time};
+}
+
+/// "1%", "0.01", "512M": a number and what follows it.
+std::optional<double> number_with(const std::string& text, const std::vector<std::pair<std::string, double>>& endings) {
+  double value = 0;
+  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const std::string rest(end, text.data() + text.size());
+  for (const auto& [ending, factor] : endings)
+    if (problem == std::errc() && rest == ending && std::isfinite(value) && value > 0) return value * factor;
+  return {};
+}
+
+/// `shown`: what of it is drawn.
+void write_trade(const reports::Trade& trade, const reports::Trade& shown, const reports::Aim& aim,
+                 const Options& options) {
+  const auto folder = options.out / "trade";
+  reports::write_file(folder / (trade.case_id + ".csv"), reports::trade_csv(trade));
+  reports::write_file(folder / (trade.case_id + ".json"), reports::trade_json(trade, provenance()));
+  fmt::print("{}\n", (folder / (trade.case_id + ".{csv,json}")).string());
+  reports::Case drawn;
+  drawn.figures.push_back(work_precision(shown, aim, trade.case_id + ".cost"));
+  draw_figures({drawn}, folder, {});
+}
+
+bool stopped(const reports::Trade& trade) {
+  return std::any_of(trade.points.begin(), trade.points.end(),
+                     [](const reports::TradePoint& point) { return point.status == "cancelled"; });
+}
+
+}  // namespace
+
+int trade_command(const Options& options, const std::atomic<bool>& cancelled) {
+  const Case c = case_of_trade(options);
+  prepare(options.out);
+  const reports::Trade trade = measure_trade(c, running_of(options, cancelled), options.rounds);
+  const reports::Trade shown = of_scene(trade, scene_of(options, trade));
+  const reports::Aim aim = aim_of(options, shown);
+  fmt::print("{}\n", reports::trade_text(shown, aim, reports::Cost::work));
+  write_trade(trade, shown, aim, options);
+  return stopped(trade) || cancelled ? unstable_or_error : all_passed;
+}
+
+int pick_command(const Options& options, const std::atomic<bool>& cancelled) {
+  const auto error = number_with(options.error, {{"%", 0.01}, {" %", 0.01}, {"", 1}});
+  if (!error) throw InputError(fmt::format("--error: found {}; allowed: 1% or 0.01, > 0", words(options.error)));
+  Target target;
+  target.error = *error;
+  target.seconds = options.seconds;
+  if (!options.memory.empty()) {
+    target.bytes = number_with(options.memory, {{"", 1}, {"k", 1e3}, {"M", 1e6}, {"G", 1e9}, {"T", 1e12}});
+    if (!target.bytes)
+      throw InputError(fmt::format("--memory: found {}; allowed: bytes, or 100k, 512M, 1G", words(options.memory)));
+  }
+  const Case c = case_of_trade(options);
+  // Time is needed only where it is limited.
+  const int rounds = target.seconds ? std::max(1, options.rounds) : 0;
+  const Running running = running_of(options, cancelled);
+  reports::Trade trade = measure_trade(c, running, rounds);
+  if (stopped(trade) || cancelled) return unstable_or_error;
+  trade = of_scene(trade, scene_of(options, trade));
+  target.aim = aim_of(options, trade);
+  if (target.seconds) target.cost = reports::Cost::seconds;
+  const Pick found = pick(trade, target);
+  fmt::print("{}", words_of(trade, target, found));
+  // Each proposal that is retracted tells more for the next one.
+  constexpr int most = 3;
+  bool confirmed = false;
+  for (int k = 0; k < most && !confirmed; ++k) {
+    const auto proposal = propose(trade, target, pick(trade, target));
+    if (!proposal) break;
+    const Trial trial = tried(c, target, *proposal, running);
+    fmt::print("{}", trial.words);
+    confirmed = trial.confirmed;
+    trade.points.push_back(trial.point);
+  }
+  return found.best || confirmed ? all_passed : some_failed;
+}
+
+}  // namespace diptych::runner
