@@ -35,7 +35,9 @@ expect 14 '; did you mean "stress.L1"' "$program" trade bar.mode.fixed-free --ro
 expect 14 'time: found 0.123; allowed' "$program" trade bar.mode.fixed-free --rounds 0 --time 0.123 --out traded
 expect 14 'did you mean "courant"' "$program" trade bar.mode.fixed-free --over courrant=1
 expect 14 '2 cases; allowed: one' "$program" trade bar.mode.fixed-free bar.energy
-expect 14 'found "plain"; allowed: "", "plane-stress"' "$program" pick plate.s-wave --error 1% --scene plain
+expect 14 'found "plain"; allowed: "", "plane-stress"' "$program" pick plate.s-wave --rounds 0 --error 1% --scene plain
+expect 14 'did you mean "seconds"' "$program" pick bar.mode.fixed-free --error 1% --by second
+expect 14 'rounds to time' "$program" pick bar.mode.fixed-free --error 1% --seconds 1 --rounds 0
 
 # A scene of one's own, and what happens to a gate that cannot hold.
 cat > own.toml <<'TOML'

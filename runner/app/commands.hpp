@@ -26,6 +26,7 @@ struct Options {
   std::string scene;              ///< trade, pick: variant and parameters, "plane-stress v0=0.1"; empty: the first
   std::string quantity;           ///< trade, pick: "stress.L2"; empty: the first
   std::optional<double> time;     ///< trade, pick: the sample time; none: the last
+  std::string by;                 ///< trade, pick: what is paid in; empty: seconds where runs are timed, else updates
   int rounds = 5;                 ///< trade, pick: in which runs are timed
   std::string error;              ///< pick: at most, "1%"
   std::optional<double> seconds;  ///< pick: at most

@@ -92,6 +92,8 @@ int main(int argc, char** argv) {
                         "variant and swept parameters, as runs are labelled; the first without it");
     command->add_option("--quantity", options.quantity, "what is looked at: stress.L2, velocity.Linf, probe.ID");
     command->add_option("--time", options.time, "a sample time, in the case's unit; the last without it");
+    command->add_option("--by", options.by,
+                        "what is paid in: seconds, updates or bytes; seconds without it, where runs are timed");
     command->add_option("--rounds", options.rounds, "in which every run is timed; 0: not at all")
         ->check(CLI::Range(0, 1000))
         ->capture_default_str();

@@ -31,6 +31,20 @@ Case case_of_trade(const Options& options) {
   return cases.front();
 }
 
+/// What is paid in, by --by.
+reports::Cost cost_asked(const Options& options) {
+  if (options.by.empty()) return options.rounds > 0 ? reports::Cost::seconds : reports::Cost::work;
+  const Names known{"seconds", "updates", "bytes"};
+  if (!contains(known, options.by))
+    throw InputError(
+        fmt::format("--by: found {}; allowed: {}{}", words(options.by), joined(known), hint_of(options.by, known)));
+  if (options.by == "seconds" && options.rounds == 0)
+    throw InputError("--by seconds: found with --rounds 0; allowed: with rounds to time the runs in");
+  return options.by == "seconds" ? reports::Cost::seconds
+         : options.by == "bytes" ? reports::Cost::bytes
+                                 : reports::Cost::work;
+}
+
 Running running_of(const Options& options, const std::atomic<bool>& cancelled) {
   Running running{threads_of(options), &cancelled};
   running.progress = progress();
@@ -109,12 +123,13 @@ bool stopped(const reports::Trade& trade) {
 }  // namespace
 
 int trade_command(const Options& options, const std::atomic<bool>& cancelled) {
+  const reports::Cost cost = cost_asked(options);
   const Case c = case_of_trade(options);
   prepare(options.out);
   const reports::Trade trade = measure_trade(c, running_of(options, cancelled), options.rounds);
   const reports::Trade shown = of_scene(trade, scene_of(options, trade));
   const reports::Aim aim = aim_of(options, shown);
-  fmt::print("{}\n", reports::trade_text(shown, aim, reports::Cost::work));
+  fmt::print("{}\n", reports::trade_text(shown, aim, cost));
   write_trade(trade, shown, aim, options);
   return stopped(trade) || cancelled ? unstable_or_error : all_passed;
 }
@@ -125,20 +140,21 @@ int pick_command(const Options& options, const std::atomic<bool>& cancelled) {
   Target target;
   target.error = *error;
   target.seconds = options.seconds;
+  if (target.seconds && options.rounds == 0)
+    throw InputError("--seconds: found with --rounds 0; allowed: with rounds to time the runs in");
+  target.cost = cost_asked(options);
+  target.rounds = options.rounds;
   if (!options.memory.empty()) {
     target.bytes = number_with(options.memory, {{"", 1}, {"k", 1e3}, {"M", 1e6}, {"G", 1e9}, {"T", 1e12}});
     if (!target.bytes)
       throw InputError(fmt::format("--memory: found {}; allowed: bytes, or 100k, 512M, 1G", words(options.memory)));
   }
   const Case c = case_of_trade(options);
-  // Time is needed only where it is limited.
-  const int rounds = target.seconds ? std::max(1, options.rounds) : 0;
   const Running running = running_of(options, cancelled);
-  reports::Trade trade = measure_trade(c, running, rounds);
+  reports::Trade trade = measure_trade(c, running, options.rounds);
   if (stopped(trade) || cancelled) return unstable_or_error;
   trade = of_scene(trade, scene_of(options, trade));
   target.aim = aim_of(options, trade);
-  if (target.seconds) target.cost = reports::Cost::seconds;
   const Pick found = pick(trade, target);
   fmt::print("{}", words_of(trade, target, found));
   // Each proposal that is retracted tells more for the next one.

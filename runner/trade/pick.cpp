@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "runner/input/leaf.hpp"
+#include "runner/trade/timing.hpp"
 #include "runner/trade/trade.hpp"
 
 namespace diptych::runner {
@@ -147,7 +148,13 @@ Trial tried(const Case& whole, const Target& target, const Proposal& proposal, c
   trial.point.leaf = proposal.like;  // of the same setting
   const TradeError* found =
       trial.point.completed() ? trial.point.error_of(target.aim.quantity, target.aim.time) : nullptr;
-  trial.confirmed = found && found->error <= target.error;
+  if (found && target.rounds > 0) {
+    const Timed timed = time_runs(c, {leaf}, target.rounds, running.cancelled, {}).front();
+    trial.point.rounds = timed.rounds;
+    trial.point.seconds = timed.seconds;
+    trial.point.spread = timed.spread;
+  }
+  trial.confirmed = found && found->error <= target.error && within_limits(trial.point, target);
   trial.words += trial.confirmed ? "confirmed, " : "retracted, ";
   if (found)
     trial.words += fmt::format("it has {:.3g} %; {}\n", 100 * found->error, cost_words(trial.point));

@@ -16,6 +16,7 @@ struct Target {
   std::optional<double> seconds;  ///< at most
   std::optional<double> bytes;    ///< at most
   reports::Cost cost = reports::Cost::work;
+  int rounds = 0;  ///< in which what is proposed is timed
 };
 
 /// What was picked of the measured points; indices into Trade::points.
@@ -47,7 +48,7 @@ std::optional<Proposal> propose(const reports::Trade&, const Target&, const Pick
 /// how near the nearest is.
 std::string words_of(const reports::Trade&, const Target&, const Pick&);
 
-/// A proposal that was run: whether it keeps what was expected of it, in words, and its point for the trade.
+/// A proposal that was run: whether it meets the target, in words, and its point for the trade.
 struct Trial {
   bool confirmed = false;
   std::string words;

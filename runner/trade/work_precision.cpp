@@ -117,7 +117,7 @@ std::string exact_ones(const reports::Trade& trade, const reports::Aim& aim) {
 }
 
 /// The range of what is drawn, a margin around it.
-std::array<double, 2> range_of(const std::vector<const std::vector<double>*>& all) {
+std::array<double, 2> span_of(const std::vector<const std::vector<double>*>& all) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const auto* values : all)
     for (const double value : *values)
@@ -165,9 +165,9 @@ reports::Figure work_precision(const reports::Trade& trade, const reports::Aim& 
       costs.push_back(&series.curve.x);
       errors.push_back(&series.curve.y);
     }
-    panel.x_range = range_of(costs);
+    panel.x_range = span_of(costs);
   }
-  const auto range = range_of(errors);
+  const auto range = span_of(errors);
   figure.y_min = range[0];
   figure.y_max = range[1];
   for (reports::Figure::Panel& panel : figure.panels)

@@ -271,6 +271,17 @@ BOOST_AUTO_TEST_CASE(a_proposal_is_run_and_confirmed_or_retracted) {
   expect_in(good.words, {"fem N=16 C=0.5", "confirmed"});
   BOOST_TEST(good.confirmed);
   BOOST_TEST(good.point.cells == 16);
+  // Near enough, but not within its memory or its time.
+  target.bytes = 100;
+  BOOST_TEST(!tried(c, target, proposal, {}).confirmed);
+  target.bytes = {};
+  target.seconds = 1e-12;
+  target.rounds = 1;
+  BOOST_TEST(!tried(c, target, proposal, {}).confirmed);
+  target.seconds = 100;
+  BOOST_TEST(tried(c, target, proposal, {}).confirmed);
+  BOOST_TEST(tried(c, target, proposal, {}).point.rounds == 1);
+  target.seconds = {};
   // An expectation that is a tenth too good.
   target.error = fine;
   proposal.error = fine;
