@@ -159,6 +159,29 @@ BOOST_AUTO_TEST_CASE(what_is_not_completed_stays_a_point_of_its_own_kind) {
   BOOST_TEST(unstable);
 }
 
+BOOST_AUTO_TEST_CASE(a_run_above_its_limit_that_has_not_blown_up_yet_is_not_completed) {
+  reports::Run run = made_run("fem", 10, 1.02);
+  run.time_step_limit = 1;
+  reports::FieldError error;
+  error.field = "stress";
+  error.l2 = 0.1;
+  reports::Sample sample;
+  sample.asked = 1;
+  sample.errors = {error};
+  run.samples = {sample};
+  run.time_step = 1;
+  BOOST_TEST(point_of(run).completed());
+  BOOST_TEST(point_of(run).errors.size() == 3u);
+  run.time_step = 1.02;
+  BOOST_TEST(point_of(run).status == "above limit");
+  BOOST_TEST(point_of(run).errors.empty());
+  run.time_step = 1;
+  run.invalid = "a number is none";
+  BOOST_TEST(point_of(run).status == "invalid");
+  BOOST_TEST(point_of(run).message == "a number is none");
+  BOOST_TEST(point_of(run).errors.empty());
+}
+
 BOOST_AUTO_TEST_CASE(the_front_holds_what_nothing_beats) {
   Trade t = two_settings();
   BOOST_TEST(
@@ -243,6 +266,9 @@ BOOST_AUTO_TEST_CASE(fewer_cells_are_proposed_where_the_meshes_let_expect_it) {
   BOOST_TEST(proposal->cells == 12);
   BOOST_TEST(proposal->setting == "b");
   BOOST_TEST(proposal->error == 0.05, tt::tolerance(1e-12));
+  // A mesh that is just near enough leaves none between.
+  target.error = 0.03;
+  BOOST_TEST(!propose(t, target, pick(t, target)));
   // Beyond the finest: 0.015 * 40 / 0.01 = 60; and no further than four times as fine.
   target.error = 0.01;
   BOOST_TEST(propose(t, target, pick(t, target)).value().cells == 60);
