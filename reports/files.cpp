@@ -9,19 +9,18 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <nlohmann/json.hpp>
 #include <pugixml.hpp>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
 
+#include "reports/json.hpp"
 #include "reports/text.hpp"
 
 namespace diptych::reports {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 // ---- writing
 
@@ -86,34 +85,6 @@ void write_through(const fs::path& path, const std::string& content) {
 }
 
 // ---- JSON
-
-/// Writes numbers of one object and remembers whether all of them were finite. JSON has no NaN, and the library
-/// would write null without a word.
-class Numbers {
- public:
-  explicit Numbers(Json& object) : object_(object) {}
-  void put(const std::string& key, double value) { put_into(object_, key, value); }
-  void put(const std::string& key, const std::optional<double>& value) {
-    if (value) put(key, *value);
-  }
-  void put_into(Json& place, const std::string& key, double value) {
-    if (std::isfinite(value)) {
-      place[key] = value;
-    } else {
-      place[key] = nullptr;
-      finite_ = false;
-    }
-  }
-  void also(bool finite) { finite_ = finite_ && finite; }
-  bool finish() {
-    object_["finite"] = finite_;
-    return finite_;
-  }
-
- private:
-  Json& object_;
-  bool finite_ = true;
-};
 
 Json json_of(const Sample& sample, bool& finite) {
   Json out = Json::object();
@@ -250,18 +221,11 @@ void write_file(const fs::path& path, const std::string& content) {
 }
 
 std::string results_jsonl(const std::vector<Case>& cases, const Provenance& made_by) {
-  const Json env{{"version", made_by.version},
-                 {"commit", made_by.commit},
-                 {"dirty", made_by.dirty},
-                 {"compiler", made_by.compiler},
-                 {"flags", made_by.flags},
-                 {"cpu", made_by.cpu},
-                 {"os", made_by.os}};
+  const Json env = env_of(made_by);
   std::string out;
   const auto add = [&](Json line) {
     line["env"] = env;
-    // Text from outside (a path, a compiler's message) need not be UTF-8: replace it rather than lose the line.
-    out += line.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+    out += json_line(line);
   };
   for (const Case& data : cases) {
     for (const Run& run : data.runs) add(json_of(run));

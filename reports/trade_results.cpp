@@ -2,12 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace diptych::reports {
 
 Trade of_scene(Trade trade, const std::string& scene) {
   std::erase_if(trade.points, [&](const TradePoint& point) { return point.scene != scene; });
   return trade;
+}
+
+double cost_of(const TradePoint& point, Cost cost) {
+  switch (cost) {
+    case Cost::work: return point.work();
+    case Cost::bytes: return static_cast<double>(point.bytes);
+    case Cost::seconds: break;
+  }
+  return point.timed.rounds > 0 ? point.timed.seconds : std::numeric_limits<double>::infinity();
 }
 
 std::vector<bool> on_front(const Trade& trade, const Aim& aim, Cost cost) {
@@ -22,7 +32,7 @@ std::vector<bool> on_front(const Trade& trade, const Aim& aim, Cost cost) {
   std::vector<bool> front;
   for (const TradePoint& one : trade.points) {
     const double own = error(one), price = cost_of(one, cost);
-    front.push_back(std::isfinite(own) &&
+    front.push_back(std::isfinite(own) && std::isfinite(price) &&
                     std::none_of(trade.points.begin(), trade.points.end(), [&](const TradePoint& other) {
                       const double theirs = error(other), paid = cost_of(other, cost);
                       return theirs <= own && paid <= price && (theirs < own || paid < price);

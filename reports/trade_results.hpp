@@ -17,6 +17,13 @@ struct TradeError {
   std::optional<double> predicted;  ///< by theory, as the error
 };
 
+/// How long a run takes.
+struct Timed {
+  int rounds = 0;      ///< in which it was timed; 0: it was not
+  double seconds = 0;  ///< median over the rounds
+  double spread = 0;   ///< half of their interquartile range, part of the median
+};
+
 /// One setting, run.
 struct TradePoint {
   std::string label;     ///< of the run
@@ -32,9 +39,7 @@ struct TradePoint {
   long steps = 0;                                              ///< of time
   long element_steps = 0, particle_steps = 0, node_steps = 0;  ///< deterministic work
   std::size_t bytes = 0;                                       ///< of the solver's arrays
-  int rounds = 0;                                              ///< in which it was timed; 0: it was not
-  double seconds = 0;                                          ///< median of the rounds
-  double spread = 0;               ///< half of their interquartile range, part of the median
+  Timed timed;
   std::vector<TradeError> errors;  ///< of a completed run
 
   bool completed() const { return status == "completed"; }
@@ -75,9 +80,8 @@ Trade of_scene(Trade, const std::string& scene);
 
 /// What a setting is paid in.
 enum class Cost { work, seconds, bytes };
-inline double cost_of(const TradePoint& point, Cost cost) {
-  return cost == Cost::work ? point.work() : cost == Cost::seconds ? point.seconds : static_cast<double>(point.bytes);
-}
+/// Infinite in seconds where it was not timed: what is not known is never the cheapest.
+double cost_of(const TradePoint&, Cost);
 
 /// Whether no other completed point is as cheap and as near, and better in one of the two; of each point. Errors of the
 /// size of round-off are equal, and so are those below the band of their reference. What has no

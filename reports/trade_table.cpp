@@ -3,11 +3,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
-#include <nlohmann/json.hpp>
 #include <numeric>
 
 #include "reports/csv.hpp"
+#include "reports/json.hpp"
 #include "reports/text.hpp"
 
 namespace diptych::reports {
@@ -17,13 +16,13 @@ const char* unit_of_cost(Cost cost) {
   return cost == Cost::work ? "updates" : cost == Cost::seconds ? "seconds" : "bytes";
 }
 
-std::string time_words(const TradePoint& point) {
-  if (point.rounds == 0) return "-";
-  const std::string spread = point.rounds > 1 ? fmt::format(" ± {:.0f} %", 100 * point.spread) : "";
-  return fmt::format("{:.3g}{}", point.seconds, spread);
-}
-
 }  // namespace
+
+std::string time_words(const Timed& timed, const char* unit) {
+  if (timed.rounds == 0) return "-";
+  const std::string spread = timed.rounds > 1 ? fmt::format(" ± {:.0f} %", 100 * timed.spread) : "";
+  return fmt::format("{:.3g}{}{}", timed.seconds, unit, spread);
+}
 
 std::string trade_text(const Trade& trade, const Aim& aim, Cost cost) {
   std::string out = fmt::format("{}: error of {} at t = {:g} {} against cost\n", trade.case_id, aim.quantity, aim.time,
@@ -54,7 +53,7 @@ std::string trade_text(const Trade& trade, const Aim& aim, Cost cost) {
                                                 : fmt::format("{:.3e}", found->error);
     out += line(point.label, error, found && found->predicted ? fmt::format("{:.3e}", *found->predicted) : "-",
                 fmt::format("{:.3g}", point.work()), fmt::format("{:.3g}", static_cast<double>(point.bytes)),
-                time_words(point), front[i] ? "front" : "");
+                time_words(point.timed), front[i] ? "front" : "");
     if (!point.completed() && !point.message.empty()) out += fmt::format("      {}\n", point.message);
   }
   return out + fmt::format(
@@ -92,7 +91,7 @@ std::string trade_csv(const Trade& trade) {
                               "band",
                               "predicted"});
   for (const TradePoint& point : trade.points) {
-    const bool timed = point.rounds > 0;
+    const bool timed = point.timed.rounds > 0;
     const std::vector<std::string> head{point.label,
                                         point.setting,
                                         point.scene,
@@ -107,9 +106,9 @@ std::string trade_csv(const Trade& trade) {
                                         std::to_string(point.particle_steps),
                                         std::to_string(point.node_steps),
                                         std::to_string(point.bytes),
-                                        std::to_string(point.rounds),
-                                        timed ? csv_number(point.seconds) : "",
-                                        timed ? csv_number(point.spread) : ""};
+                                        std::to_string(point.timed.rounds),
+                                        timed ? csv_number(point.timed.seconds) : "",
+                                        timed ? csv_number(point.timed.spread) : ""};
     for (const TradeError& one : point.errors) {
       std::vector<std::string> cells = head;
       cells.insert(cells.end(), {one.quantity, csv_number(one.time), csv_number(one.error), csv_number(one.band),
@@ -125,47 +124,47 @@ std::string trade_csv(const Trade& trade) {
 }
 
 std::string trade_json(const Trade& trade, const Provenance& made_by) {
-  using nlohmann::ordered_json;
-  // JSON has no numbers that are not finite: they are null.
-  const auto number = [](double value) { return std::isfinite(value) ? ordered_json(value) : ordered_json(); };
-  ordered_json all{{"type", "trade"},
-                   {"case", trade.case_id},
-                   {"title", trade.title},
-                   {"time_unit", trade.time_unit},
-                   {"commit", made_by.commit},
-                   {"dirty", made_by.dirty},
-                   {"compiler", made_by.compiler},
-                   {"flags", made_by.flags},
-                   {"cpu", made_by.cpu},
-                   {"points", ordered_json::array()}};
+  Json all{{"type", "trade"}, {"case", trade.case_id}, {"title", trade.title}, {"time_unit", trade.time_unit}};
+  Numbers of_all(all);
+  all["points"] = Json::array();
   for (const TradePoint& point : trade.points) {
-    ordered_json one{{"run", point.label},
-                     {"setting", point.setting},
-                     {"scene", point.scene},
-                     {"method", point.method},
-                     {"cells", point.cells},
-                     {"cell_size", number(point.cell_size)},
-                     {"status", point.status},
-                     {"message", point.message},
-                     {"unknowns", point.unknowns},
-                     {"steps", point.steps},
-                     {"element_steps", point.element_steps},
-                     {"particle_steps", point.particle_steps},
-                     {"node_steps", point.node_steps},
-                     {"bytes", point.bytes},
-                     {"rounds", point.rounds},
-                     {"seconds", point.rounds > 0 ? number(point.seconds) : ordered_json()},
-                     {"spread", point.rounds > 0 ? number(point.spread) : ordered_json()},
-                     {"errors", ordered_json::array()}};
-    for (const TradeError& error : point.errors)
-      one["errors"].push_back({{"quantity", error.quantity},
-                               {"time", number(error.time)},
-                               {"error", number(error.error)},
-                               {"band", number(error.band)},
-                               {"predicted", error.predicted ? number(*error.predicted) : ordered_json()}});
+    Json one{{"run", point.label},
+             {"setting", point.setting},
+             {"scene", point.scene},
+             {"method", point.method},
+             {"cells", point.cells},
+             {"status", point.status},
+             {"message", point.message},
+             {"unknowns", point.unknowns},
+             {"steps", point.steps},
+             {"element_steps", point.element_steps},
+             {"particle_steps", point.particle_steps},
+             {"node_steps", point.node_steps},
+             {"bytes", point.bytes},
+             {"rounds", point.timed.rounds}};
+    Numbers numbers(one);
+    numbers.put("cell_size", point.cell_size);
+    if (point.timed.rounds > 0) {
+      numbers.put("seconds", point.timed.seconds);
+      numbers.put("spread", point.timed.spread);
+    }
+    one["errors"] = Json::array();
+    for (const TradeError& error : point.errors) {
+      Json item{{"quantity", error.quantity}};
+      Numbers values(item);
+      values.put("time", error.time);
+      values.put("error", error.error);
+      values.put("band", error.band);
+      values.put("predicted", error.predicted);
+      numbers.also(values.finish());
+      one["errors"].push_back(std::move(item));
+    }
+    of_all.also(numbers.finish());
     all["points"].push_back(std::move(one));
   }
-  return all.dump() + '\n';
+  of_all.finish();
+  all["env"] = env_of(made_by);
+  return json_line(all);
 }
 
 }  // namespace diptych::reports

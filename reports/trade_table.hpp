@@ -8,6 +8,9 @@
 
 namespace diptych::reports {
 
+/// "3.1e-05 ± 2 %", with the unit after the number; "-" where it was not timed, and no spread of a single round.
+std::string time_words(const Timed&, const char* unit = "");
+
 /// One quantity at one time: a line a setting, the cheapest first; "front" where none is both cheaper and nearer.
 std::string trade_text(const Trade&, const Aim&, Cost);
 /// Every quantity at every time, one line each; a setting without errors has one line with its status.

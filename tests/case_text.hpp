@@ -86,6 +86,11 @@ inline std::string axes(const std::vector<std::string>& methods, const std::stri
   return "[axes]\nmethod = [" + names + "]\ncells = [" + cells + "]\ncourant = [" + courant + "]\n";
 }
 
+/// Sample times as TOML writes a list, in L/c.
+inline std::string sampled(const std::string& times) {
+  return "[sample]\ntimes = { unit = \"L/c\", at = [" + times + "] }\n";
+}
+
 /// `rest`: the lines of the kind, each with its end. The reason is none.
 inline std::string gate(const std::string& id, const std::string& kind, const std::string& quantity,
                         const std::string& rest) {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "reports/trade_table.hpp"
 #include "runner/input/leaf.hpp"
 #include "runner/trade/timing.hpp"
 #include "runner/trade/trade.hpp"
@@ -27,7 +28,7 @@ double sure_error(const TradePoint& point, const Target& target) {
 }
 
 bool within_limits(const TradePoint& point, const Target& target) {
-  if (target.seconds && !(point.rounds > 0 && point.seconds <= *target.seconds)) return false;
+  if (target.seconds && !(point.timed.rounds > 0 && point.timed.seconds <= *target.seconds)) return false;
   return !target.bytes || static_cast<double>(point.bytes) <= *target.bytes;
 }
 
@@ -45,7 +46,7 @@ std::optional<std::size_t> cheapest(const Trade& trade, const Target& target, do
 
 std::string cost_words(const TradePoint& point) {
   std::string text = fmt::format("{:.3g} updates, {:.3g} bytes", point.work(), static_cast<double>(point.bytes));
-  if (point.rounds > 0) text += fmt::format(", {:.3g} s ± {:.0f} %", point.seconds, 100 * point.spread);
+  if (point.timed.rounds > 0) text += ", " + reports::time_words(point.timed, " s");
   return text;
 }
 
@@ -148,12 +149,8 @@ Trial tried(const Case& whole, const Target& target, const Proposal& proposal, c
   trial.point.leaf = proposal.like;  // of the same setting
   const TradeError* found =
       trial.point.completed() ? trial.point.error_of(target.aim.quantity, target.aim.time) : nullptr;
-  if (found && target.rounds > 0) {
-    const Timed timed = time_runs(c, {leaf}, target.rounds, running.cancelled, {}).front();
-    trial.point.rounds = timed.rounds;
-    trial.point.seconds = timed.seconds;
-    trial.point.spread = timed.spread;
-  }
+  if (found && target.rounds > 0)
+    trial.point.timed = time_runs(c, {leaf}, target.rounds, running.cancelled, {}).front();
   trial.confirmed = found && found->error <= target.error && within_limits(trial.point, target);
   trial.words += trial.confirmed ? "confirmed, " : "retracted, ";
   if (found)

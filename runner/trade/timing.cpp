@@ -20,7 +20,7 @@ double quantile(const std::vector<double>& sorted, double share) {
 
 }  // namespace
 
-Timed summed_up(std::vector<double> rounds) {
+reports::Timed summed_up(std::vector<double> rounds) {
   if (rounds.empty()) return {};
   std::sort(rounds.begin(), rounds.end());
   const double median = quantile(rounds, 0.5);
@@ -28,9 +28,9 @@ Timed summed_up(std::vector<double> rounds) {
   return {static_cast<int>(rounds.size()), median, median > 0 ? range / 2 / median : 0};
 }
 
-std::vector<Timed> time_runs(const Case& c, const std::vector<Leaf>& runs, int rounds,
-                             const std::atomic<bool>* cancelled,
-                             const std::function<void(std::size_t, std::size_t)>& progress) {
+std::vector<reports::Timed> time_runs(const Case& c, const std::vector<Leaf>& runs, int rounds,
+                                      const std::atomic<bool>* cancelled,
+                                      const std::function<void(std::size_t, std::size_t)>& progress) {
   constexpr double least = 0.01;  // [s] of a round; a clock and a cold cache are then small beside it
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   Running running;
@@ -55,7 +55,7 @@ std::vector<Timed> time_runs(const Case& c, const std::vector<Leaf>& runs, int r
       if (progress) progress(++done, total);
     }
   }
-  std::vector<Timed> all;
+  std::vector<reports::Timed> all;
   for (const std::vector<double>& each : taken) all.push_back(summed_up(each));
   return all;
 }

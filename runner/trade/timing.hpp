@@ -5,24 +5,20 @@
 #include <functional>
 #include <vector>
 
+#include "reports/trade_results.hpp"
 #include "runner/input/case.hpp"
 #include "runner/input/leaf.hpp"
 
 namespace diptych::runner {
 
-struct Timed {
-  int rounds = 0;      ///< 0: the run did not complete
-  double seconds = 0;  ///< median over the rounds
-  double spread = 0;   ///< half the interquartile range, part of the median
-};
-
 /// Median and spread of the rounds of one run.
-Timed summed_up(std::vector<double> rounds);
+reports::Timed summed_up(std::vector<double> rounds);
 
 /// Each run of these once a round, one after the other, on one thread and without books; a first round is not counted.
 /// A run that takes less than a hundredth of a second is repeated within its round until it has taken so long. Other
 /// work must not go on in this process; what is stopped by `cancelled` has as many rounds as were finished.
-std::vector<Timed> time_runs(const Case&, const std::vector<Leaf>&, int rounds, const std::atomic<bool>* cancelled,
-                             const std::function<void(std::size_t done, std::size_t total)>& progress);
+std::vector<reports::Timed> time_runs(const Case&, const std::vector<Leaf>&, int rounds,
+                                      const std::atomic<bool>* cancelled,
+                                      const std::function<void(std::size_t done, std::size_t total)>& progress);
 
 }  // namespace diptych::runner

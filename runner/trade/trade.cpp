@@ -144,13 +144,8 @@ reports::Trade measure_trade(const Case& whole, const Running& running, int roun
     timed.push_back(all[i]);
     which.push_back(i);
   }
-  const std::vector<Timed> times = time_runs(c, timed, rounds, running.cancelled, running.progress);
-  for (std::size_t k = 0; k < which.size(); ++k) {
-    reports::TradePoint& point = trade.points[which[k]];
-    point.rounds = times[k].rounds;
-    point.seconds = times[k].seconds;
-    point.spread = times[k].spread;
-  }
+  const std::vector<reports::Timed> times = time_runs(c, timed, rounds, running.cancelled, running.progress);
+  for (std::size_t k = 0; k < which.size(); ++k) trade.points[which[k]].timed = times[k];
   return trade;
 }
 

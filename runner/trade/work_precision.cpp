@@ -25,8 +25,8 @@ constexpr double exact_but_for_round_off = 1e-12;
 /// A completed point's error, where its logarithm and that of its cost can be drawn.
 const TradeError* drawable_error(const TradePoint& point, const reports::Aim& aim, Cost cost) {
   const TradeError* found = point.completed() ? point.error_of(aim.quantity, aim.time) : nullptr;
-  const bool good =
-      found && found->error > exact_but_for_round_off && std::isfinite(found->error) && cost_of(point, cost) > 0;
+  const bool good = found && found->error > exact_but_for_round_off && std::isfinite(found->error) &&
+                    cost_of(point, cost) > 0 && std::isfinite(cost_of(point, cost));
   return good ? found : nullptr;
 }
 
@@ -152,7 +152,7 @@ reports::Figure work_precision(const reports::Trade& trade, const reports::Aim& 
   figure.panels.back().label = "work: updates of elements or particles, and of nodes";
   figure.x_label = figure.panels.back().x_label = "updates";
   const bool timed =
-      std::any_of(trade.points.begin(), trade.points.end(), [](const TradePoint& p) { return p.rounds > 0; });
+      std::any_of(trade.points.begin(), trade.points.end(), [](const TradePoint& p) { return p.timed.rounds > 0; });
   if (timed) {
     figure.panels.push_back(panel_over(trade, aim, Cost::seconds));
     figure.panels.back().label = "time on one thread, without books";

@@ -48,16 +48,8 @@ void add(const Case&, const FigureSpec& spec, reports::Case& result) {
 FigureKind points_kind() { return {.id = "points", .keys = {"cells", "counted"}, .read = read, .add = add}; }
 
 const std::string bar = head("t", "code-verification", "paper") + pulled_bar + axes({"fem", "mpm-musl"}, "10", "0.5") +
-                        R"(particles = [[0.25, 0.75]]
-[sample]
-times = { unit = "L/c", at = [0.5] }
-[[gate]]
-id = "near"
-kind = "exact"
-quantity = "displacement.L2"
-max = 1.0
-reason = "r"
-[[figure]]
+                        "particles = [[0.25, 0.75]]\n" + sampled("0.5") +
+                        gate("near", "exact", "displacement.L2", "max = 1.0\n") + R"([[figure]]
 id = "picture"
 kind = "points"
 counted = "displacement"
