@@ -22,7 +22,7 @@ struct CellSize {
 
 /// Strain of each triangle [-] from displacement, or its rate from velocity. Sums are of pairs that change places in a
 /// mirror, so that the mirrored cell has the mirrored bits.
-inline Triangles strains(const CellValues& u, const CellSize& h) {
+[[gnu::always_inline]] inline Triangles strains(const CellValues& u, const CellSize& h) {
   const auto tensor = [&](const Vector& along_x, const Vector& along_y) {
     return material::Tensor{along_x[0] / h.x, along_y[1] / h.y, (along_x[1] / h.x + along_y[0] / h.y) / 2};
   };
@@ -36,7 +36,7 @@ inline Triangles strains(const CellValues& u, const CellSize& h) {
 }
 
 /// Mean of the strains of the triangles; the middle node has no part in it.
-inline material::Tensor mean_strain(const CellValues& u, const CellSize& h) {
+[[gnu::always_inline]] inline material::Tensor mean_strain(const CellValues& u, const CellSize& h) {
   const auto& [a, b, c, d, middle] = u;
   const auto along_x = [&](std::size_t k) { return ((b[k] + c[k]) - (a[k] + d[k])) / (2 * h.x); };
   const auto along_y = [&](std::size_t k) { return ((c[k] + d[k]) - (a[k] + b[k])) / (2 * h.y); };
@@ -45,7 +45,7 @@ inline material::Tensor mean_strain(const CellValues& u, const CellSize& h) {
 
 /// Internal forces on the nodes, −∫ σ·∇N (eq. 19) [N per metre of thickness]. At a corner the shape functions of its
 /// two triangles have the same gradient, (±1/h_x, ±1/h_y).
-inline CellValues internal_forces(const Triangles& stress, const CellSize& h) {
+[[gnu::always_inline]] inline CellValues internal_forces(const Triangles& stress, const CellSize& h) {
   const double a = h.y / 4, b = h.x / 4;  // A/h_x, A/h_y
   const auto corner = [&](const material::Tensor& p, const material::Tensor& q, double right, double up) {
     const material::Tensor s = p + q;

@@ -34,7 +34,7 @@ class PlateBody {
         border_(plate, mesh_),
         stress_(solid.elastic().stiffness(), mesh_.h),
         material_(solid, mesh_, rows_, stress_, plate.viscosity.has_value(), stepping.books != Books::off),
-        sweep_(mesh_, border_, stress_, rows_, static_cast<bool>(plate.body_force)),
+        sweep_(mesh_, border_, stress_, rows_, static_cast<bool>(plate.body_force), plate.viscosity.has_value()),
         books_(mesh_, rows_, border_, stress_, material_, viscosity_, dt_, stepping.books != Books::off),
         gauges_(plate, cells, stepping.steps, !material_.model().fields().dilatancy.empty()) {
     if (border_.has_platen()) platen_.reserve(static_cast<Index>(stepping.steps));

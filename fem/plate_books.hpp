@@ -131,7 +131,7 @@ class PlateBooks {
   /// Σ A [ψ + ½ σ:(ε − ε here)] of the triangles of a cell, ψ and σ where it stands, at the strains `here` [J/m].
   double energy_between(Index cell, const Triangles& here, const Triangles& strain) const {
     if (stress_.is_own(cell))
-      return energy_between(cell, here, strain, [&](Index t) { return stress_.stress[cell][t]; });
+      return energy_between(cell, here, strain, [&](Index t) { return stress_.stress[t][cell]; });
     return energy_between(cell, here, strain, [&](Index t) { return stress_.solid.stress(here[t]); });
   }
   template <class Stress>

@@ -9,6 +9,7 @@
 #include "fem/plate_stress.hpp"
 #include "hinge/scene/plate.hpp"
 #include "hinge/solid/plane_model.hpp"
+#include "hinge/wide.hpp"
 
 namespace diptych::fem {
 
@@ -16,6 +17,31 @@ namespace diptych::fem {
 struct Taken {
   double by_damage = 0, by_flow = 0;
 };
+
+/// What each cell's mean strain shows to what changes in cells.
+template <class Driver>
+DIPTYCH_WIDE void drive_row(const CellRow& displacement, const CellSize& h, Index cells, Driver driver,
+                            double* __restrict out) {
+  const CellRow u = displacement;
+  const CellSize size = h;
+#pragma GCC ivdep
+  for (Index i = 0; i < cells; ++i) out[i] = driver(mean_strain(u[i], size));
+}
+
+/// Stresses of the triangles of a run of cells.
+template <class LawRow>
+DIPTYCH_WIDE void stress_row(const CellRow& displacement, const CellSize& h, Index cells, LawRow law,
+                             const std::array<TensorRow, 4>& out) {
+  const CellRow u = displacement;
+  const CellSize size = h;
+  const std::array<TensorRow, 4> stress = out;
+#pragma GCC ivdep
+  for (Index i = 0; i < cells; ++i) {
+    const Triangles strain = strains(u[i], size);
+    const auto set = [&](Index t) DIPTYCH_INLINE { stress[t].set(i, law.stress(strain[t], i, 4 * i + t)); };
+    set(0), set(1), set(2), set(3);
+  }
+}
 
 template <solid::PlaneModel Model>
 class PlateMaterial {
@@ -27,10 +53,7 @@ class PlateMaterial {
         rows_(rows),
         stress_(stress),
         model_(solid, {static_cast<int>(mesh.nx), static_cast<int>(mesh.ny), mesh.h.x, mesh.h.y}, 4 * mesh.cells()) {
-    if (!Model::linear || viscous) {
-      stress_.stress.resize(mesh.cells());
-      stress_.own.resize(mesh.cells());
-    }
+    if (!Model::linear || viscous) stress_.resize(mesh.cells());
     if (!Model::linear && books) taken_.resize(mesh.ny);
     if (Model::staggered) driver_.resize(mesh.cells());
   }
@@ -38,7 +61,8 @@ class PlateMaterial {
   /// Eqs. 23 to 28, staggered: the cells' mean strains at the end of the step give what changes in cells.
   void advance(double dt) {
     rows_.for_each([&](Index j) {
-      mesh_.for_row(j, [&](CellAt at) { driver_[at.cell] = model_.driver(mesh_.mean_strain(at)); });
+      const Index first = j * mesh_.nx;
+      drive_row(mesh_.displacements({first, j}), mesh_.h, mesh_.nx, model_.driver(), &driver_[first]);
     });
     model_.advance(driver_, dt);
   }
@@ -48,10 +72,11 @@ class PlateMaterial {
     rows_.for_each([&](Index j) {
       Taken taken;
       const bool counts = !Model::linear && keeps_books;
-      mesh_.for_row(j, [&](CellAt at) {
-        renew(at, dt, counts && model_.has_potential(), taken);
-        stress_.own[at.cell] = update_cell(at, taken);
-      });
+      renew(j, dt, counts && model_.has_potential(), taken);
+      if constexpr (Model::yields)
+        mesh_.for_row(j, [&](CellAt at) { stress_.own[at.cell] = update_cell(at, taken); });
+      else
+        update_row(j);
       if (counts) taken_[j] = taken;
     });
   }
@@ -76,20 +101,40 @@ class PlateMaterial {
     return energy;
   }
 
-  /// What has changed in a cell takes effect: the least that it can have taken is the smaller of the two falls of ψ.
-  void renew(CellAt at, double dt, bool counts, Taken& taken) {
-    if (!model_.outdated(at.cell)) return;
-    if (!counts) return model_.renew(at.cell);
-    const auto before = stored_along(at, dt);
-    model_.renew(at.cell);
-    const auto after = stored_along(at, dt);
-    for (Index t = 0; t < 4; ++t) taken.by_damage += std::min(before[t][0] - after[t][0], before[t][1] - after[t][1]);
+  /// What has changed in a row's cells takes effect: the least that each can have taken is the smaller of the two falls
+  /// of ψ.
+  void renew(Index j, double dt, bool counts, Taken& taken) {
+    const Index first = j * mesh_.nx;
+    if (!counts) return model_.renew(first, mesh_.nx);
+    mesh_.for_row(j, [&](CellAt at) {
+      if (!model_.outdated(at.cell)) return;
+      const auto before = stored_along(at, dt);
+      model_.renew(at.cell, 1);
+      const auto after = stored_along(at, dt);
+      for (Index t = 0; t < 4; ++t) taken.by_damage += std::min(before[t][0] - after[t][0], before[t][1] - after[t][1]);
+    });
   }
 
-  /// 0 where the stresses are those of the whole solid, which are not kept.
+  /// Cells of the whole solid keep no stress.
+  void update_row(Index j) {
+    const Index first = j * mesh_.nx, end = first + mesh_.nx;
+    const auto whole = [&](Index cell) { return model_.whole(cell, 0); };
+    for (Index cell = first; cell < end; ++cell) stress_.own[cell] = !whole(cell);
+    for (Index from = first, to = 0; from < end; from = to) {
+      const bool own = stress_.own[from];
+      for (to = from + 1; to < end && static_cast<bool>(stress_.own[to]) == own; ++to) {
+      }
+      if (own) {
+        stress_row(mesh_.displacements({from, j}), mesh_.h, to - from, model_.row(from, 4 * from),
+                   {TensorRow(stress_.stress[0], from), TensorRow(stress_.stress[1], from),
+                    TensorRow(stress_.stress[2], from), TensorRow(stress_.stress[3], from)});
+      }
+    }
+  }
+
+  /// Of points that may flow. 0 where the stresses are those of the whole solid, which are not kept.
   unsigned char update_cell(CellAt at, Taken& taken) {
     const Index cell = at.cell;
-    if (!Model::yields && model_.whole(cell, 0)) return 0;
     const auto law = model_.row(cell, 4 * cell);
     Triangles stress = mesh_.strain(at);
     bool whole = true;
@@ -100,7 +145,7 @@ class PlateMaterial {
       whole = whole && model_.whole(cell, 4 * cell + t);
     }
     if (whole) return 0;
-    stress_.stress[cell] = stress;
+    stress_.keep(cell, stress);
     return 1;
   }
 

@@ -64,6 +64,19 @@ struct CellAt {
   Index cell, row;
 };
 
+/// A vector on the nodes of a row of cells, or of a part of it: plain addresses, for a loop.
+struct CellRow {
+  const double *lower_x, *lower_y, *upper_x, *upper_y, *middle_x, *middle_y;
+
+  [[gnu::always_inline]] CellValues operator[](Index i) const {
+    return {{{lower_x[i], lower_y[i]},
+             {lower_x[i + 1], lower_y[i + 1]},
+             {upper_x[i + 1], upper_y[i + 1]},
+             {upper_x[i], upper_y[i]},
+             {middle_x[i], middle_y[i]}}};
+  }
+};
+
 /// Cells are numbered row by row from the bottom, each row from the left.
 struct Mesh {
   double width, height;  ///< of the plate [m]
@@ -102,8 +115,11 @@ struct Mesh {
   void for_cells(Act&& act) const {
     for (Index row = 0; row < ny; ++row) for_row(row, act);
   }
-  CellValues displacement(CellAt at) const { return of_cell(corners.u, middles.u, at); }
-  CellValues velocity(CellAt at) const { return of_cell(corners.v, middles.v, at); }
+  /// From a cell on, to the end of its row.
+  CellRow displacements(CellAt at) const { return of_row(corners.u, middles.u, at); }
+  CellRow velocities(CellAt at) const { return of_row(corners.v, middles.v, at); }
+  CellValues displacement(CellAt at) const { return displacements(at)[0]; }
+  CellValues velocity(CellAt at) const { return velocities(at)[0]; }
   Triangles strain(CellAt at) const { return strains(displacement(at), h); }
   Triangles strain_rate(CellAt at) const { return strains(velocity(at), h); }
   material::Tensor mean_strain(CellAt at) const { return fem::mean_strain(displacement(at), h); }
@@ -112,9 +128,10 @@ struct Mesh {
   Motion motion(Index j) const;  ///< of a row of corners and of the middles above it
 
  private:
-  CellValues of_cell(const Components& of_corners, const Components& of_middles, CellAt at) const {
+  CellRow of_row(const Components& of_corners, const Components& of_middles, CellAt at) const {
     const Index k = at.cell + at.row, l = k + nx + 1;  // a row has one corner more than it has cells
-    return {of_corners[k], of_corners[k + 1], of_corners[l + 1], of_corners[l], of_middles[at.cell]};
+    return {&of_corners.x[k], &of_corners.y[k],       &of_corners.x[l],
+            &of_corners.y[l], &of_middles.x[at.cell], &of_middles.y[at.cell]};
   }
 };
 

@@ -8,6 +8,7 @@
 #include "fem/plate_mesh.hpp"
 #include "fem/sweep.hpp"
 #include "hinge/material/plane.hpp"
+#include "hinge/solid/arrays.hpp"
 
 namespace diptych::fem {
 
@@ -15,22 +16,41 @@ struct CellStress {
   material::Stiffness solid;  ///< of the whole solid
   WholeCell whole;
   // of each cell; empty where every cell is whole for ever
-  std::vector<Triangles> stress = {};               ///< of cells that are not whole [Pa]
+  std::array<TensorField, 4> stress = {};           ///< of the triangles of cells that are not whole [Pa]
   std::vector<unsigned char> own = {};              ///< 1 where the stress is not the whole solid's
-  std::vector<std::array<double, 4>> viscous = {};  ///< q of eq. 21 of the triangles, only with viscosity [Pa]
+  std::array<std::vector<double>, 4> viscous = {};  ///< q of eq. 21 of the triangles, only with viscosity [Pa]
 
   CellStress(const material::Stiffness& s, const CellSize& h) : solid(s), whole(s, h) {}
 
+  void resize(Index cells) {
+    for (TensorField& one : stress) one.resize(cells);
+    own.resize(cells);
+  }
   bool is_own(Index cell) const { return !own.empty() && own[cell]; }
   /// The material's, without q.
   Triangles of(const Mesh& mesh, CellAt at) const {
-    if (is_own(at.cell)) return stress[at.cell];
+    if (is_own(at.cell)) return kept(at.cell);
     Triangles t = mesh.strain(at);
     for (material::Tensor& one : t) one = solid.stress(one);
     return t;
   }
+  /// Of a cell that is not whole.
+  Triangles kept(Index cell) const { return {stress[0][cell], stress[1][cell], stress[2][cell], stress[3][cell]}; }
+  void keep(Index cell, const Triangles& t) {
+    for (Index k = 0; k < 4; ++k) stress[k].set(cell, t[k]);
+  }
+  StressRows rows(Index first) const {
+    StressRows all{};
+    for (Index k = 0; k < 4; ++k) {
+      all.triangle[k] = {&stress[k].xx[first], &stress[k].yy[first], &stress[k].xy[first],
+                         viscous[k].empty() ? nullptr : &viscous[k][first]};
+    }
+    return all;
+  }
   Index bytes() const {
-    return stress.capacity() * sizeof(Triangles) + own.capacity() + viscous.capacity() * sizeof(std::array<double, 4>);
+    Index sum = own.capacity();
+    for (Index k = 0; k < 4; ++k) sum += stress[k].bytes() + viscous[k].capacity() * sizeof(double);
+    return sum;
   }
 };
 

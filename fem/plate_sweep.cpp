@@ -10,8 +10,8 @@ Vector right_end(const double (&f)[2][block + 1]) { return {f[0][0], f[1][0]}; }
 
 }  // namespace
 
-Sweep::Sweep(Mesh& mesh, Border& border, const CellStress& stress, const Rows& rows, bool body_force)
-    : mesh_(mesh), border_(border), stress_(stress), rows_(rows), loops_(loops(body_force)) {
+Sweep::Sweep(Mesh& mesh, Border& border, const CellStress& stress, const Rows& rows, bool body_force, bool viscous)
+    : mesh_(mesh), border_(border), stress_(stress), rows_(rows), loops_(loops(body_force, viscous)) {
   for (Index k = 0; k < rows.bands(); ++k)
     bands_.push_back({rows.begin(k), rows.end(k), Components(mesh.nx + 1), Components(mesh.nx + 1), {}});
 }
@@ -48,7 +48,7 @@ void Sweep::sweep(Band& band, double kick, double dt) {
   }
 }
 
-/// Eq. 19, and eq. 18 of the nodes in the middle of cells: runs of whole cells at one go, the others one by one.
+/// Eq. 19, and eq. 18 of the nodes in the middle of cells: runs of whole cells at one go, and of the others.
 void Sweep::cell_forces(Index j, Index from, Index cells, const KickAndDrift& middle, CornerForces& forces) {
   const NodeRow lower = mesh_.corners.row(j, from), upper = mesh_.corners.row(j + 1, from);
   const auto whole_cells = [&](Index first, Index count) {
@@ -64,32 +64,10 @@ void Sweep::cell_forces(Index j, Index from, Index cells, const KickAndDrift& mi
     if (!*at_cell) {
       whole_cells(first, count);
     } else {
-      for (Index i = first; i < first + count; ++i) own_cell_force(j * mesh_.nx + from + i, i, middle, forces);
+      loops_.own_cells(stress_.rows(j * mesh_.nx + from + first), mesh_.h, count, mesh_.middles.row(j, from + first),
+                       middle, forces, first);
     }
     at_cell = next;
-  }
-}
-
-/// The same of a cell with stresses of its own.
-void Sweep::own_cell_force(Index cell, Index i, const KickAndDrift& factor, CornerForces& forces) {
-  Triangles stress = stress_.stress[cell];
-  if (!stress_.viscous.empty()) {  // of the velocities half a step before
-    const auto& q = stress_.viscous[cell];
-    for (Index t = 0; t < 4; ++t) stress[t] = stress[t] + material::Tensor{q[t], q[t], 0};
-  }
-  const CellValues f = internal_forces(stress, mesh_.h);
-  Nodes& middles = mesh_.middles;
-  for (const Index c : {Index{0}, Index{1}}) {
-    forces.lower_left[c][i] = f[0][c];
-    forces.lower_right[c][i + 1] = f[1][c];
-    forces.upper_right[c][i + 1] = f[2][c];
-    forces.upper_left[c][i] = f[3][c];
-    auto& u = c == 0 ? middles.u.x : middles.u.y;
-    auto& v = c == 0 ? middles.v.x : middles.v.y;
-    double force = f[4][c];
-    if (!middles.body.x.empty()) force += middles.body[cell][c];
-    v[cell] += factor.kick * force;
-    u[cell] += factor.drift * v[cell];
   }
 }
 

@@ -12,7 +12,7 @@ namespace diptych::fem {
 
 class Sweep {
  public:
-  Sweep(Mesh&, Border&, const CellStress&, const Rows&, bool body_force);
+  Sweep(Mesh&, Border&, const CellStress&, const Rows&, bool body_force, bool viscous);
 
   /// (uⁿ, σⁿ, vⁿ⁻½) → (uⁿ⁺¹, vⁿ⁺½) of all nodes that nothing holds, kick [s] long. What the border's platens and drives
   /// hold stays for them.
@@ -30,7 +30,6 @@ class Sweep {
 
   void sweep(Band&, double kick, double dt);
   void cell_forces(Index j, Index from, Index cells, const KickAndDrift& middle, CornerForces&);
-  void own_cell_force(Index cell, Index i, const KickAndDrift&, CornerForces&);
   static void open_row(Band&, Index from, Index cells);
   void move_left_end(Band&, Index j, double kick, double dt);
   void close_rows(double kick, double dt);

@@ -14,7 +14,7 @@ ArtificialViscosity::ArtificialViscosity(const Plate& plate, const Mesh& mesh, C
       stress_(stress),
       rows_(rows),
       rows_of_(mesh.ny) {
-  stress_.viscous.resize(mesh.cells());
+  for (auto& q : stress_.viscous) q.resize(mesh.cells());
 }
 
 /// tr D of each triangle [1/s].
@@ -42,15 +42,15 @@ void ArtificialViscosity::update() {
   rows_.for_each([&](Index j) {
     mesh_.for_row(j, [&](CellAt at) {
       const std::array<double, 4> D = dilation(at);
-      std::array<double, 4>& q = stress_.viscous[at.cell];
       bool acts = false;
       for (Index t = 0; t < 4; ++t) {
-        q[t] = viscosity_.stress(D[t], largest, density_, speed_, length_);
-        acts = acts || q[t] != 0;
+        double& q = stress_.viscous[t][at.cell];
+        q = viscosity_.stress(D[t], largest, density_, speed_, length_);
+        acts = acts || q != 0;
       }
       if (!acts) return;
       rows_of_[j].acted = true;
-      stress_.stress[at.cell] = stress_.of(mesh_, at);
+      stress_.keep(at.cell, stress_.of(mesh_, at));
       stress_.own[at.cell] = 1;
     });
   });
@@ -61,7 +61,7 @@ double ArtificialViscosity::work(double dt) {
     double sum = 0;
     mesh_.for_row(j, [&](CellAt at) {
       const std::array<double, 4> D = dilation(at);
-      for (Index t = 0; t < 4; ++t) sum += stress_.viscous[at.cell][t] * (D[t] * dt);
+      for (Index t = 0; t < 4; ++t) sum += stress_.viscous[t][at.cell] * (D[t] * dt);
     });
     rows_of_[j].work = mesh_.h.triangle_area() * sum / 2;
   });

@@ -1,5 +1,7 @@
 #include "fem/sweep.hpp"
 
+#include "hinge/wide.hpp"
+
 namespace diptych::fem {
 namespace {
 
@@ -8,10 +10,9 @@ namespace {
 //   P = e_a + e_c, D = e_c − e_a, Q = e_b + e_d, E = e_b − e_d, A = D + E, B = D − E:
 // the stresses of A and B are common to opposite corners, and the force on the middle is what P and Q pull.
 template <bool with_body>
-[[gnu::always_inline]] inline void cell_loop(const WholeCell& k, std::size_t cells, const double* __restrict ax,
-                                             const double* __restrict ay, const double* __restrict dx,
-                                             const double* __restrict dy, const NodeRow& middle,
-                                             const KickAndDrift& factor, CornerForces& f, std::size_t first) {
+DIPTYCH_WIDE void cell_loop(const WholeCell& k, std::size_t cells, const double* __restrict ax,
+                            const double* __restrict ay, const double* __restrict dx, const double* __restrict dy,
+                            const NodeRow& middle, const KickAndDrift& factor, CornerForces& f, std::size_t first) {
   double* __restrict ux = middle.ux, * __restrict uy = middle.uy, * __restrict vx = middle.vx, * __restrict vy = middle.vy;
   const double* __restrict bx = middle.body_x, * __restrict by = middle.body_y;
   double* __restrict fax = f.lower_left[0] + first, * __restrict fay = f.lower_left[1] + first;
@@ -52,9 +53,8 @@ template <bool with_body>
 }
 
 template <bool with_body>
-[[gnu::always_inline]] inline void node_loop(std::size_t first, std::size_t end, const CornerForces& f,
-                                             const NodeRow& row, const KickAndDrift& factor, double* __restrict below_x,
-                                             double* __restrict below_y) {
+DIPTYCH_WIDE void node_loop(std::size_t first, std::size_t end, const CornerForces& f, const NodeRow& row,
+                            const KickAndDrift& factor, double* __restrict below_x, double* __restrict below_y) {
   double* __restrict ux = row.ux, * __restrict uy = row.uy, * __restrict vx = row.vx, * __restrict vy = row.vy;
   const double* __restrict bx = row.body_x, * __restrict by = row.body_y;
   const double* __restrict ax = f.lower_left[0], * __restrict ay = f.lower_left[1];
@@ -78,46 +78,50 @@ template <bool with_body>
   }
 }
 
-// No fused multiply-add comes with it, so the bits do not depend on the processor.
-#if defined(__x86_64__) && defined(__GNUC__)
-#define DIPTYCH_WIDE 1
-#define DIPTYCH_AVX2 [[gnu::target("avx2")]]
-#endif
-
-template <bool with_body>
-void cells_plain(const WholeCell& k, std::size_t cells, const double* ax, const double* ay, const double* dx,
-                 const double* dy, const NodeRow& middle, const KickAndDrift& factor, CornerForces& f,
-                 std::size_t first) {
-  cell_loop<with_body>(k, cells, ax, ay, dx, dy, middle, factor, f, first);
+template <bool with_body, bool viscous>
+DIPTYCH_WIDE void own_cell_loop(const StressRows& stress, const CellSize& h, std::size_t cells, const NodeRow& middle,
+                                const KickAndDrift& factor, CornerForces& f, std::size_t first) {
+  double* __restrict ux = middle.ux, * __restrict uy = middle.uy, * __restrict vx = middle.vx, * __restrict vy = middle.vy;
+  const double* __restrict bx = middle.body_x, * __restrict by = middle.body_y;
+  double* __restrict fax = f.lower_left[0] + first, * __restrict fay = f.lower_left[1] + first;
+  double* __restrict fbx = f.lower_right[0] + first + 1, * __restrict fby = f.lower_right[1] + first + 1;
+  double* __restrict fcx = f.upper_right[0] + first + 1, * __restrict fcy = f.upper_right[1] + first + 1;
+  double* __restrict fdx = f.upper_left[0] + first, * __restrict fdy = f.upper_left[1] + first;
+  const auto s = stress.triangle;
+  const CellSize size = h;
+  const double kick = factor.kick, drift = factor.drift;
+#pragma GCC ivdep
+  for (std::size_t i = 0; i < cells; ++i) {
+    const CellValues force =
+        internal_forces({s[0].at<viscous>(i), s[1].at<viscous>(i), s[2].at<viscous>(i), s[3].at<viscous>(i)}, size);
+    fax[i] = force[0][0];
+    fay[i] = force[0][1];
+    fbx[i] = force[1][0];
+    fby[i] = force[1][1];
+    fcx[i] = force[2][0];
+    fcy[i] = force[2][1];
+    fdx[i] = force[3][0];
+    fdy[i] = force[3][1];
+    double fx = force[4][0], fy = force[4][1];
+    if constexpr (with_body) {
+      fx += bx[i];
+      fy += by[i];
+    }
+    vx[i] += kick * fx;
+    vy[i] += kick * fy;
+    ux[i] += drift * vx[i];
+    uy[i] += drift * vy[i];
+  }
 }
-template <bool with_body>
-void nodes_plain(std::size_t first, std::size_t end, const CornerForces& f, const NodeRow& row,
-                 const KickAndDrift& factor, double* below_x, double* below_y) {
-  node_loop<with_body>(first, end, f, row, factor, below_x, below_y);
-}
-#ifdef DIPTYCH_WIDE
-template <bool with_body>
-DIPTYCH_AVX2 void cells_wide(const WholeCell& k, std::size_t cells, const double* ax, const double* ay,
-                             const double* dx, const double* dy, const NodeRow& middle, const KickAndDrift& factor,
-                             CornerForces& f, std::size_t first) {
-  cell_loop<with_body>(k, cells, ax, ay, dx, dy, middle, factor, f, first);
-}
-template <bool with_body>
-DIPTYCH_AVX2 void nodes_wide(std::size_t first, std::size_t end, const CornerForces& f, const NodeRow& row,
-                             const KickAndDrift& factor, double* below_x, double* below_y) {
-  node_loop<with_body>(first, end, f, row, factor, below_x, below_y);
-}
-#endif
 
 }  // namespace
 
-Loops loops(bool body_force) {
-#ifdef DIPTYCH_WIDE
-  if (__builtin_cpu_supports("avx2")) {
-    return body_force ? Loops{cells_wide<true>, nodes_wide<true>} : Loops{cells_wide<false>, nodes_wide<false>};
-  }
-#endif
-  return body_force ? Loops{cells_plain<true>, nodes_plain<true>} : Loops{cells_plain<false>, nodes_plain<false>};
+Loops loops(bool body_force, bool viscous) {
+  const auto choose = [&]<bool with_body>() {
+    return Loops{cell_loop<with_body>, viscous ? own_cell_loop<with_body, true> : own_cell_loop<with_body, false>,
+                 node_loop<with_body>};
+  };
+  return body_force ? choose.template operator()<true>() : choose.template operator()<false>();
 }
 
 }  // namespace diptych::fem

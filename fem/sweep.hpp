@@ -5,6 +5,7 @@
 // every value passes the memory once a step.
 #pragma once
 
+#include <array>
 #include <cstddef>
 
 #include "fem/cell.hpp"
@@ -59,11 +60,29 @@ struct KickAndDrift {
   double drift;  ///< time step [s]
 };
 
+/// Stresses of a row of cells [Pa], or of a part of it: one row of tensors a triangle, and q of eq. 21 with viscosity.
+struct StressRows {
+  struct Triangle {
+    const double *xx, *yy, *xy, *q;
+
+    template <bool viscous>
+    [[gnu::always_inline]] material::Tensor at(std::size_t i) const {
+      if constexpr (viscous) return {xx[i] + q[i], yy[i] + q[i], xy[i]};
+      return {xx[i], yy[i], xy[i]};
+    }
+  };
+  std::array<Triangle, 4> triangle;
+};
+
 /// Eq. 19 of `cells` whole cells: forces on corners, from the displacements of the rows of nodes below and above; kicks
 /// and moves the nodes in the middle (eq. 18).
 using CellLoop = void (*)(const WholeCell&, std::size_t cells, const double* lower_x, const double* lower_y,
                           const double* upper_x, const double* upper_y, const NodeRow& middle, const KickAndDrift&,
                           CornerForces&, std::size_t first);
+
+/// The same of cells that have stresses of their own.
+using OwnCellLoop = void (*)(const StressRows&, const CellSize&, std::size_t cells, const NodeRow& middle,
+                             const KickAndDrift&, CornerForces&, std::size_t first);
 
 /// Eq. 18 of the nodes from `first` to before `end` of a block: `below_x`, `below_y` have the forces of the cells below
 /// and receive those on the next row.
@@ -72,10 +91,11 @@ using NodeLoop = void (*)(std::size_t first, std::size_t end, const CornerForces
 
 struct Loops {
   CellLoop cells;
+  OwnCellLoop own_cells;
   NodeLoop nodes;
 };
 
-/// The same loops with the widest vectors that this processor has, the bits being the same.
-Loops loops(bool body_force);
+/// viscous: stresses have a q.
+Loops loops(bool body_force, bool viscous);
 
 }  // namespace diptych::fem

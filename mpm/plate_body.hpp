@@ -307,17 +307,9 @@ class PlateBody {
 
   /// Eqs. 23 to 28, staggered: the cells' mean strains give what changes in cells at the strains' own time.
   void change_cells(const VectorField& velocity, double dt, bool keeps_books) {
-    for_rows([&](std::size_t j) {
-      for (std::size_t i = 0; i < lattice_.nx; ++i)
-        driver_[j * lattice_.nx + i] = model_.driver(particles_.mean_strain(i, j));
-    });
+    for_rows([&](std::size_t j) { particles_.drive_row(j, model_.driver(), &driver_[j * lattice_.nx]); });
     model_.advance(driver_, dt);
-    const auto renew = [&] {
-      for_rows([&](std::size_t j) {
-        for (std::size_t cell = j * lattice_.nx; cell < (j + 1) * lattice_.nx; ++cell)
-          if (model_.outdated(cell)) model_.renew(cell);
-      });
-    };
+    const auto renew = [&] { for_rows([&](std::size_t j) { model_.renew(j * lattice_.nx, lattice_.nx); }); };
     if (keeps_books && model_.has_potential())
       books_.count_damage(velocity, dt, renew);
     else

@@ -6,16 +6,8 @@
 #include <cstddef>
 
 #include "hinge/material/plane.hpp"
+#include "hinge/wide.hpp"
 #include "mpm/plate_grid.hpp"
-
-// The same bits on every processor: wider registers, no fused multiply-add. (ThreadSanitizer cannot start a program
-// that chooses its functions while loading, and clang chooses no templates.)
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__)
-#define DIPTYCH_WIDE [[gnu::target_clones("avx2", "default")]]
-#else
-#define DIPTYCH_WIDE
-#endif
-#define DIPTYCH_INLINE __attribute__((always_inline))  // a lambda that stays a call keeps its loop from being widened
 
 namespace diptych::mpm {
 
@@ -122,6 +114,33 @@ DIPTYCH_WIDE void kick_row(const Arrangement& places, std::size_t cells, std::si
 struct TensorRows {
   double *xx = nullptr, *yy = nullptr, *xy = nullptr;
 };
+
+/// Mean of the values of a cell's particles.
+template <std::size_t n>
+[[gnu::always_inline]] inline double mean_of_cell(std::size_t along, std::size_t stride, const double* values,
+                                                  std::size_t i) {
+  const std::size_t count = n > 0 ? n : along;
+  return pair_sum<n>(count,
+                     [&](std::size_t b) DIPTYCH_INLINE {
+                       return pair_sum<n>(
+                           count, [&](std::size_t a) DIPTYCH_INLINE { return values[(b * count + a) * stride + i]; });
+                     }) /
+         static_cast<double>(count * count);
+}
+
+/// driver(mean strain) of a row of cells.
+template <std::size_t n, class Driver>
+DIPTYCH_WIDE void drive_row(std::size_t count, std::size_t cells, std::size_t stride, TensorRows strain, Driver driver,
+                            double* __restrict out) {
+  const double* xx = strain.xx;
+  const double* yy = strain.yy;
+  const double* xy = strain.xy;
+#pragma GCC ivdep
+  for (std::size_t i = 0; i < cells; ++i) {
+    const auto mean = [&](const double* values) DIPTYCH_INLINE { return mean_of_cell<n>(count, stride, values, i); };
+    out[i] = driver(material::Tensor{mean(xx), mean(yy), mean(xy)});
+  }
+}
 
 /// What a pass over the particles brings up to date: both at one go, but where something comes between the two.
 enum class Update { strain, force, both };

@@ -73,13 +73,7 @@ void Standing::kick_and_move(Bands& bands, double kick, double drift, double pic
 
 material::Tensor Standing::mean_strain(std::size_t i, std::size_t j) const {
   const auto mean = [&](const std::vector<double>& component) {
-    return pair_sum<0>(places_.count,
-                       [&](std::size_t b) {
-                         return pair_sum<0>(places_.count, [&](std::size_t a) {
-                           return component[index(i, j, b * places_.count + a)];
-                         });
-                       }) /
-           static_cast<double>(per_cell());
+    return mean_of_cell<0>(places_.count, stride_, component.data() + index(0, j, 0), i);
   };
   return {mean(state_.strain.xx), mean(state_.strain.yy), mean(state_.strain.xy)};
 }

@@ -147,12 +147,11 @@ class Standing {
       for_runs([&](std::size_t from, std::size_t node, std::size_t length) {
         const std::size_t first = index(from, j, 0), low = grid_.row(j) + node, high = grid_.row(j + 1) + node;
         with_count([&]<std::size_t n>() {
-          strain_row<n, what>(
-              places_, length, stride_, dt, grid_.hx, grid_.hy, state_.volume,
-              {velocity.x.data() + low, velocity.x.data() + high}, {velocity.y.data() + low, velocity.y.data() + high},
-              {state_.strain.xx.data() + first, state_.strain.yy.data() + first, state_.strain.xy.data() + first},
-              model.row(j * columns_ + from, first), viscous_row(first), ShareRows(band.shares[0], node),
-              ShareRows(band.shares[1], node));
+          strain_row<n, what>(places_, length, stride_, dt, grid_.hx, grid_.hy, state_.volume,
+                              {velocity.x.data() + low, velocity.x.data() + high},
+                              {velocity.y.data() + low, velocity.y.data() + high}, strain_rows(first),
+                              model.row(j * columns_ + from, first), viscous_row(first),
+                              ShareRows(band.shares[0], node), ShareRows(band.shares[1], node));
         });
       });
       if constexpr (damped && what == Update::strain) viscous.note(j, index(0, j, 0), stride_, per_cell(), columns_);
@@ -169,6 +168,13 @@ class Standing {
 
   /// Mean of a cell's strains.
   material::Tensor mean_strain(std::size_t i, std::size_t j) const;
+  /// What those of a row of cells show to what changes in cells.
+  template <class Driver>
+  void drive_row(std::size_t j, Driver driver, double* out) {
+    const std::size_t first = index(0, j, 0);
+    with_count(
+        [&]<std::size_t n>() { mpm::drive_row<n>(places_.count, columns_, stride_, strain_rows(first), driver, out); });
+  }
 
   void convect(Bands&) {}
 
@@ -183,6 +189,10 @@ class Standing {
     const std::size_t cut = std::min(grid_.cut, columns_);
     f(std::size_t{0}, std::size_t{0}, cut);
     if (cut < columns_) f(cut, cut + 1, columns_ - cut);
+  }
+
+  TensorRows strain_rows(std::size_t first) {
+    return {state_.strain.xx.data() + first, state_.strain.yy.data() + first, state_.strain.xy.data() + first};
   }
 
   /// One and two particles along a side are known to the compiler beforehand.

@@ -13,7 +13,7 @@ only() { # only FOLDER OTHERS [EXCEPT]: files of FOLDER, but for EXCEPT, include
   [ -z "$found" ] || { echo "$1 may include $2 alone:"; echo "$found"; broken=1; }
 }
 only hinge/material hinge/material
-only hinge/diffusion hinge/diffusion
+only hinge/diffusion 'hinge/(diffusion|wide)'
 only hinge/solid 'hinge/(material|diffusion|solid)'
 only hinge/scene 'hinge/(material|diffusion|solid|scene|step)'
 only hinge/step 'hinge/(material|diffusion|solid|scene|step)'

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "hinge/diffusion/cholesky.hpp"
+#include "hinge/wide.hpp"
 
 namespace diptych::diffusion {
 namespace {
@@ -36,6 +37,19 @@ class NodeField {
   std::size_t row_ = 0, nodes_ = 0;
   std::vector<double> data_;
 };
+
+/// combine(k, what flows into node k's volume per unit time), rows of `up` nodes. A face gives its two nodes the same
+/// bits with opposite signs; and mirrored fields give mirrored bits.
+template <class Combine>
+DIPTYCH_WIDE void for_inflows(std::ptrdiff_t nodes, std::ptrdiff_t up, const double* __restrict east,
+                              const double* __restrict north, const double* __restrict u, Combine combine) {
+#pragma GCC ivdep
+  for (std::ptrdiff_t k = 0; k < nodes; ++k) {
+    const double x = east[k] * (u[k + 1] - u[k]) - east[k - 1] * (u[k] - u[k - 1]);
+    const double y = north[k] * (u[k + up] - u[k]) - north[k - up] * (u[k] - u[k - up]);
+    combine(k, x + y);
+  }
+}
 
 constexpr std::uint64_t bits(double value) { return std::bit_cast<std::uint64_t>(value); }
 
@@ -289,17 +303,11 @@ struct Concentration::Parts {
     scaled_for = dt;
   }
 
-  /// out[k] = combine(k, what flows into node k's volume per unit time). A face gives its two nodes the same bits with
-  /// opposite signs; and mirrored fields give mirrored bits.
+  /// combine(k, what flows into node k's volume per unit time) for all nodes.
   template <class Combine>
-  void sweep(const double* __restrict u, Combine combine) const {
-    const double* __restrict e = east.data(), * __restrict n = north.data();
-    const auto count = static_cast<std::ptrdiff_t>(volume.size()), up = static_cast<std::ptrdiff_t>(row);
-    for (std::ptrdiff_t k = 0; k < count; ++k) {
-      const double x = e[k] * (u[k + 1] - u[k]) - e[k - 1] * (u[k] - u[k - 1]);
-      const double y = n[k] * (u[k + up] - u[k]) - n[k - up] * (u[k] - u[k - up]);
-      combine(k, x + y);
-    }
+  void sweep(const double* u, Combine combine) const {
+    for_inflows(static_cast<std::ptrdiff_t>(volume.size()), static_cast<std::ptrdiff_t>(row), east.data(), north.data(),
+                u, combine);
   }
 
   void euler(std::span<const double> source, double dt, long parts) {
@@ -308,7 +316,7 @@ struct Concentration::Parts {
     for (long i = 0; i < parts; ++i) {
       const double* __restrict u = c.data(), * __restrict s = scale.data();
       double* __restrict out = next.data();
-      sweep(u, [=](std::ptrdiff_t k, double inflow) { out[k] = u[k] + s[k] * inflow; });
+      sweep(u, [=](std::ptrdiff_t k, double inflow) DIPTYCH_INLINE { out[k] = u[k] + s[k] * inflow; });
       for (const std::size_t k : fed_nodes) out[k] += part * source[k];
       drawn -= part * into_held(u);
       std::swap(c, next);
@@ -330,7 +338,7 @@ struct Concentration::Parts {
     const double* __restrict a = scale.data();
     double* __restrict m = first.data();
     double *y = next.data(), *z = before.data();
-    sweep(c.data(), [=](std::ptrdiff_t k, double inflow) { m[k] = a[k] * inflow; });
+    sweep(c.data(), [=](std::ptrdiff_t k, double inflow) DIPTYCH_INLINE { m[k] = a[k] * inflow; });
     for (const std::size_t k : fed_nodes) m[k] += dt * source[k];
     const double into = dt * into_held(c.data());
     double flown = b(1) * w * into, flown_before = 0;
@@ -344,9 +352,8 @@ struct Concentration::Parts {
       const double mu_w = mu * w, constant = mu_w * b(j - 1);  // μ̃ + γ̃ with γ̃ = −(1 − b_{j−1}) μ̃
       const double* __restrict yr = y;
       double* __restrict zr = z;
-      sweep(yr, [=](std::ptrdiff_t k, double inflow) {
-        zr[k] = mu * yr[k] + nu * zr[k] + mu_w * (a[k] * inflow) + constant * m[k];
-      });
+      sweep(yr, [=](std::ptrdiff_t k, double inflow)
+                    DIPTYCH_INLINE { zr[k] = mu * yr[k] + nu * zr[k] + mu_w * (a[k] * inflow) + constant * m[k]; });
       flown_before = mu * flown + nu * flown_before + mu_w * (dt * into_held(y)) + constant * into;
       std::swap(flown, flown_before);
       std::swap(y, z);
@@ -470,7 +477,7 @@ struct Concentration::Parts {
   void solve(std::span<const double> source, double dt) {
     if (!factor_serves(dt)) factorise(dt);
     double* __restrict r = right.data();
-    sweep(c.data(), [=](std::ptrdiff_t k, double inflow) { r[k] = dt * inflow; });
+    sweep(c.data(), [=](std::ptrdiff_t k, double inflow) DIPTYCH_INLINE { r[k] = dt * inflow; });
     if (!held.empty()) return solve_beside_held(source, dt);
     double given = 0, gained = 0, whole = 0;
     for (const std::size_t k : fed_nodes) {

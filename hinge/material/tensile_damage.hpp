@@ -54,13 +54,52 @@ struct TensileDamage {
   /// C_d, eq. 23a, 0 where ε_v ≤ 0; ε̇_max in 1/s, > 0.
   double crack_density(double volumetric_strain, double strain_rate) const;
   /// ν̄, eq. 23d, held at zero beyond α C_d = 1: D = 1 comes before it, and below ν̄ = −1 eq. 23b would heal the solid.
-  double damaged_poissons_ratio(double crack_density) const;
-  double damage(double crack_density) const;                ///< D, eq. 23b, at most 1
-  double damaged_bulk_modulus(double crack_density) const;  ///< K̄, eq. 23c [Pa]
+  inline double damaged_poissons_ratio(double crack_density) const;
+  inline double damage(double crack_density) const;                ///< D, eq. 23b, at most 1
+  inline double damaged_bulk_modulus(double crack_density) const;  ///< K̄, eq. 23c [Pa]
   /// Ḡ of K̄ and ν̄ (eqs. 23c and 23d) [Pa], at most the whole solid's: where ν > 0.395 a little damage would raise it.
-  double damaged_shear_modulus(double crack_density) const;
+  inline double damaged_shear_modulus(double crack_density) const;
   /// At C_d = 0 to the bit the whole solid's.
-  CrackedStiffness damaged_stiffness(double crack_density) const;
+  inline CrackedStiffness damaged_stiffness(double crack_density) const;
 };
+
+// Of these, loops over cells are made.
+
+inline double TensileDamage::damaged_poissons_ratio(double crack_density) const {
+  const double left = 1 - alpha() * crack_density;
+  return elastic.poissons_ratio * (left < 0 ? 0 : left);
+}
+
+inline double TensileDamage::damage(double crack_density) const {
+  const double nu = damaged_poissons_ratio(crack_density);
+  const double D = 16 * (1 - nu * nu) / (9 * (1 - 2 * nu)) * crack_density;
+  return 1 < D ? 1 : D;  // this order keeps NaN
+}
+
+inline double TensileDamage::damaged_bulk_modulus(double crack_density) const {
+  const double left = 1 - damage(crack_density);
+  return (left < residual_stiffness ? residual_stiffness : left) * elastic.bulk_modulus();
+}
+
+inline double TensileDamage::damaged_shear_modulus(double crack_density) const {
+  const double nu = damaged_poissons_ratio(crack_density), whole = elastic.shear_modulus();
+  const double shear = 1.5 * (1 - damage(crack_density)) * elastic.bulk_modulus() * (1 - 2 * nu) / (1 + nu);
+  const double least = residual_stiffness * whole, left = shear < least ? least : shear;
+  return whole < left ? whole : left;
+}
+
+inline CrackedStiffness TensileDamage::damaged_stiffness(double crack_density) const {
+  const Stiffness whole = elastic.stiffness();
+  const double shear = damaged_shear_modulus(crack_density);
+  const Stiffness open = stiffness_of_moduli(damaged_bulk_modulus(crack_density), shear, elastic.plane);
+  const Stiffness closed =
+      closure == Closure::whole ? whole : stiffness_of_moduli(elastic.bulk_modulus(), shear, elastic.plane);
+  const bool none = crack_density == 0;
+  const auto of = [&](const Stiffness& cracked) {
+    return Stiffness{none ? whole.normal : cracked.normal, none ? whole.cross : cracked.cross,
+                     none ? whole.shear : cracked.shear};
+  };
+  return {of(open), of(closed)};
+}
 
 }  // namespace diptych::material

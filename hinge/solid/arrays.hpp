@@ -24,7 +24,20 @@ struct TensorField {
     for (auto* component : {&xx, &yy, &xy}) allocate(*component, count);
   }
   material::Tensor operator[](std::size_t p) const { return {xx[p], yy[p], xy[p]}; }
+  void set(std::size_t p, const material::Tensor& t) { xx[p] = t.xx, yy[p] = t.yy, xy[p] = t.xy; }
   std::size_t bytes() const { return (xx.capacity() + yy.capacity() + xy.capacity()) * sizeof(double); }
+};
+
+/// Components of it from a point on, as plain addresses.
+struct TensorRow {
+  double *xx = nullptr, *yy = nullptr, *xy = nullptr;
+  TensorRow(TensorField& field, std::size_t first)
+      : xx(field.xx.data() + first), yy(field.yy.data() + first), xy(field.xy.data() + first) {}
+  [[gnu::always_inline]] void set(std::size_t i, const material::Tensor& t) const {
+    xx[i] = t.xx;
+    yy[i] = t.yy;
+    xy[i] = t.xy;
+  }
 };
 
 /// A stiffness of every cell.

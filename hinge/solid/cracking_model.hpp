@@ -9,6 +9,7 @@
 #include "hinge/solid/arrays.hpp"
 #include "hinge/solid/cracking.hpp"
 #include "hinge/solid/plane_model.hpp"
+#include "hinge/wide.hpp"
 
 namespace diptych::solid {
 
@@ -58,15 +59,12 @@ class Cracking::Model {
   bool whole(std::size_t cell, std::size_t) const { return crack_density_[cell] == 0; }
   bool has_potential() const { return law_.has_potential(); }
 
-  double driver(const material::Tensor& mean) const { return law_.volumetric(mean); }
+  auto driver() const {
+    return [law = law_](const material::Tensor& mean) DIPTYCH_INLINE { return law.volumetric(mean); };
+  }
   void advance(std::span<const double> volumetric_strain, double dt) { evolution_.advance(volumetric_strain, dt); }
   bool outdated(std::size_t cell) const { return evolution_.crack_density()[cell] != crack_density_[cell]; }
-  void renew(std::size_t cell) {
-    crack_density_[cell] = evolution_.crack_density()[cell];
-    const auto [open, closed] = law_.damaged_stiffness(crack_density_[cell]);
-    open_.set(cell, open);
-    closed_.set(cell, closed);
-  }
+  void renew(std::size_t first, std::size_t cells);
 
   Fields fields() const { return {evolution_.crack_density(), {}, evolution_.concentration()}; }
   double volumetric(const material::Tensor& mean) const { return law_.volumetric(mean); }

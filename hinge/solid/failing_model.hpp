@@ -9,6 +9,7 @@
 #include "hinge/material/failure_wave_law.hpp"
 #include "hinge/solid/failing.hpp"
 #include "hinge/solid/plane_model.hpp"
+#include "hinge/wide.hpp"
 
 namespace diptych::solid {
 
@@ -44,10 +45,12 @@ class Failing::Model {
   bool whole(std::size_t cell, std::size_t) const { return dilatancy_.of_cells()[cell] == 0; }
   bool has_potential() const { return false; }
 
-  double driver(const material::Tensor& mean) const { return law_.open_ceiling(mean); }
+  auto driver() const {
+    return [law = law_](const material::Tensor& mean) DIPTYCH_INLINE { return law.open_ceiling(mean); };
+  }
   void advance(std::span<const double> ceiling, double dt) { dilatancy_.advance(ceiling, dt); }
   bool outdated(std::size_t) const { return false; }  // cells read their dilatancy where it changes
-  void renew(std::size_t) {}
+  void renew(std::size_t, std::size_t) {}
 
   Fields fields() const { return {{}, dilatancy_.of_cells(), dilatancy_.of_nodes()}; }
   double volumetric(const material::Tensor& mean) const { return law_.elastic.volumetric(mean); }

@@ -55,13 +55,13 @@ concept PlaneModel = requires(M m, const M k, const material::Tensor& strain, st
   { k.whole(cell, point) } -> std::same_as<bool>;
   /// Whether the stress of cells that do not change is the derivative of `stored`.
   { k.has_potential() } -> std::same_as<bool>;
-  /// What a cell's mean strain shows to what changes in cells; NaN of NaN.
-  { k.driver(strain) } -> std::same_as<double>;
-  /// All cells' drivers in, at the end of a step of dt [s]. Cells take up what follows by `renew`: before it `outdated`
-  /// is true and the cell has its old law.
+  /// What a cell's mean strain shows to what changes in cells, as a value that a loop calls; NaN of NaN.
+  { k.driver()(strain) } -> std::same_as<double>;
+  /// All cells' drivers in, at the end of a step of dt [s]. Cells take up what follows by `renew`, which is told the
+  /// first of a run of cells and how many: before it `outdated` is true and the cell has its old law.
   {m.advance(drivers, dt)};
   { k.outdated(cell) } -> std::same_as<bool>;
-  {m.renew(cell)};
+  {m.renew(cell, cell)};
   { k.fields() } -> std::same_as<Fields>;
   /// ε_v of a mean strain, as the solid reads it.
   { k.volumetric(strain) } -> std::same_as<double>;
@@ -80,10 +80,12 @@ class Unchanging {
 
   explicit Unchanging(const material::PlaneElastic& elastic) : elastic_(elastic) {}
   bool has_potential() const { return true; }
-  double driver(const material::Tensor&) const { return 0; }
+  static auto driver() {
+    return [](const material::Tensor&) { return 0.0; };
+  }
   void advance(std::span<const double>, double) {}
   bool outdated(std::size_t) const { return false; }
-  void renew(std::size_t) {}
+  void renew(std::size_t, std::size_t) {}
   Fields fields() const { return {}; }
   double volumetric(const material::Tensor& mean) const { return elastic_.volumetric(mean); }
   double fed() const { return 0; }
