@@ -41,7 +41,7 @@ class NodeField {
 /// combine(k, what flows into node k's volume per unit time), rows of `up` nodes. A face gives its two nodes the same
 /// bits with opposite signs; and mirrored fields give mirrored bits.
 template <class Combine>
-DIPTYCH_WIDE void for_inflows(std::ptrdiff_t nodes, std::ptrdiff_t up, const double* __restrict east,
+DIPTYCH_WIDEST void for_inflows(std::ptrdiff_t nodes, std::ptrdiff_t up, const double* __restrict east,
                               const double* __restrict north, const double* __restrict u, Combine combine) {
 #pragma GCC ivdep
   for (std::ptrdiff_t k = 0; k < nodes; ++k) {

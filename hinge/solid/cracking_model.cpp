@@ -8,7 +8,7 @@ namespace diptych::solid {
 namespace {
 
 /// Eqs. 23b to 23d of a run of cells.
-DIPTYCH_WIDE void stiffnesses(const material::TensileDamage& damage, std::size_t cells,
+DIPTYCH_WIDEST void stiffnesses(const material::TensileDamage& damage, std::size_t cells,
                               const double* __restrict crack_density, double* __restrict open_normal,
                               double* __restrict open_cross, double* __restrict open_shear,
                               double* __restrict closed_normal, double* __restrict closed_cross,

@@ -31,8 +31,11 @@ struct Options {
   std::string error;              ///< pick: at most, "1%"
   std::optional<double> seconds;  ///< pick: at most
   std::string memory;             ///< pick: at most, "1G"
-  std::string pattern;            ///< test: only the tests whose names it fits
-  bool targets = false;           ///< test: only name what must be built for them
+  std::vector<std::string> methods;           ///< bench: ids of panels; empty: FEM and MPM, MUSL
+  std::vector<double> points{1e4, 1e5, 1e6};  ///< bench: about so many elements or particles
+  std::vector<int> counts;                    ///< bench: numbers of threads; empty: one, and all there are
+  std::string pattern;                        ///< test: only the tests whose names it fits
+  bool targets = false;                       ///< test: only name what must be built for them
 };
 
 int run_command(const Options&, const std::atomic<bool>& cancelled);
@@ -40,6 +43,7 @@ int gate_command(const Options&, const std::atomic<bool>& cancelled);
 int explain_command(const Options&, const std::atomic<bool>& cancelled);
 int trade_command(const Options&, const std::atomic<bool>& cancelled);
 int pick_command(const Options&, const std::atomic<bool>& cancelled);
+int bench_command(const Options&, const std::atomic<bool>& cancelled);
 int list_command(const Options&);
 int show_command(const Options&);
 int paper_command(const Options&, const std::atomic<bool>& cancelled);

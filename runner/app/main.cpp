@@ -113,6 +113,23 @@ int main(int argc, char** argv) {
   pick->footer("Example: diptych pick bar.step.fixed-free --error 10% --quantity stress.L1 --time 1.7");
   pick->callback([&] { status = pick_command(options, cancelled); });
 
+  auto* bench = app.add_subcommand("bench", "how quick the solvers' loops are, beside what the memory gives");
+  bench->add_option("SCENE", options.selectors, "elastic, damage, diffusion, failure, crossing, bar; all without one");
+  bench->add_option("--method", options.methods, "fem and mpm-musl without it")->delimiter(',');
+  bench->add_option("--points", options.points, "about so many elements or particles: 1e4,1e5,1e6")
+      ->delimiter(',')
+      ->check(CLI::Range(10.0, 1e8))
+      ->capture_default_str();
+  bench->add_option("--threads", options.counts, "1,2: of plates; one, and all there are, without it")
+      ->delimiter(',')
+      ->check(CLI::Range(1, 1024));
+  bench->add_option("--rounds", options.rounds, "of which the median is shown")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  bench->add_option("--json", options.json, "also write what was measured to this file (JSON lines)");
+  bench->footer("Example: diptych bench damage diffusion --points 1e5 --threads 1");
+  bench->callback([&] { status = bench_command(options, cancelled); });
+
   auto* gate = app.add_subcommand("gate", "run and judge; 0 only if every declared gate was judged and passed");
   add_cases(gate, false);
   gate->add_flag("--quick", options.quick, "leave out the gates marked slow, and say which");

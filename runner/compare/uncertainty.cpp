@@ -14,7 +14,6 @@
 namespace diptych::runner {
 namespace {
 
-constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 constexpr double least_order = 0.05, largest_order = 10;
 
 // --- Sprague & Geers ---
@@ -166,7 +165,10 @@ SpragueGeers sprague_geers(const History& history, const History& reference) {
     g.push_back(history_value(reference, t));
   }
   const double size_f = norm(time, f), size_g = norm(time, g);
-  if (!(size_f > 0) || !(size_g > 0)) return {nan_value, nan_value, nan_value};
+  if (!(size_f > 0) || !(size_g > 0)) {
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    return {unknown, unknown, unknown};
+  }
   // The angle between f and g from the sides of their rhombus: arccos would lose half the digits of a small one.
   std::vector<double> sum, difference;
   for (std::size_t i = 0; i < time.size(); ++i) {

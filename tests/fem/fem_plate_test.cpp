@@ -140,8 +140,9 @@ BOOST_AUTO_TEST_CASE(forces_of_a_cell_do_the_work_of_its_stresses) {
     const double bx = 0.5, by = -0.25;
     const double lower_x[2] = {u[0][0], u[1][0]}, lower_y[2] = {u[0][1], u[1][1]};
     const double upper_x[2] = {u[3][0], u[2][0]}, upper_y[2] = {u[3][1], u[2][1]};
-    fem::loops(body).cells(fem::WholeCell(solid, h), 1, lower_x, lower_y, upper_x, upper_y,
-                           {&ux, &uy, &vx, &vy, body ? &bx : zero, body ? &by : zero}, {1, 0}, g, 0);
+    fem::loops(body, false)
+        .cells(fem::WholeCell(solid, h), 1, lower_x, lower_y, upper_x, upper_y,
+               {&ux, &uy, &vx, &vy, body ? &bx : zero, body ? &by : zero}, {1, 0}, g, 0);
     for (std::size_t c = 0; c < 2; ++c) {
       BOOST_TEST(g.lower_left[c][0] == f[0][c], tt::tolerance(1e-13));
       BOOST_TEST(g.lower_right[c][1] == f[1][c], tt::tolerance(1e-13));
@@ -150,6 +151,46 @@ BOOST_AUTO_TEST_CASE(forces_of_a_cell_do_the_work_of_its_stresses) {
     }
     BOOST_TEST(vx == f[4][0] + (body ? bx : 0), tt::tolerance(1e-13));
     BOOST_TEST(vy == f[4][1] + (body ? by : 0), tt::tolerance(1e-13));
+  }
+}
+
+// A run of cells with stresses of their own gets, several cells at once, the numbers of each cell alone.
+BOOST_AUTO_TEST_CASE(cells_side_by_side_get_what_each_gets_alone) {
+  constexpr std::size_t cells = 11;  // no multiple of what a register holds
+  const fem::CellSize h{0.3, 0.7};
+  for (const auto& [body, viscous] : {std::pair{false, false}, {true, false}, {false, true}, {true, true}}) {
+    std::array<std::array<std::array<double, cells>, 4>, 4> of{};  // of each triangle xx, yy, xy and q
+    fem::StressRows rows{};
+    for (std::size_t t = 0; t < 4; ++t) {
+      for (std::size_t c = 0; c < 4; ++c) {
+        for (std::size_t i = 0; i < cells; ++i) of[t][c][i] = std::sin(1 + static_cast<double>(t + 4 * c + 16 * i));
+      }
+      rows.triangle[t] = {of[t][0].data(), of[t][1].data(), of[t][2].data(), viscous ? of[t][3].data() : nullptr};
+    }
+    std::array<double, cells> ux{}, uy{}, vx{}, vy{}, bx{}, by{};
+    bx.fill(0.5);
+    by.fill(-0.25);
+    fem::CornerForces g;
+    fem::loops(body, viscous)
+        .own_cells(rows, h, cells,
+                   {ux.data(), uy.data(), vx.data(), vy.data(), body ? bx.data() : nullptr, body ? by.data() : nullptr},
+                   {0.5, 0.25}, g, 3);
+    for (std::size_t i = 0; i < cells; ++i) {
+      fem::Triangles stress;
+      for (std::size_t t = 0; t < 4; ++t) {
+        const double q = viscous ? of[t][3][i] : 0;
+        stress[t] = {of[t][0][i] + q, of[t][1][i] + q, of[t][2][i]};
+      }
+      const fem::CellValues f = fem::internal_forces(stress, h);
+      for (std::size_t c = 0; c < 2; ++c) {
+        BOOST_TEST(g.lower_left[c][3 + i] == f[0][c]);
+        BOOST_TEST(g.lower_right[c][4 + i] == f[1][c]);
+        BOOST_TEST(g.upper_right[c][4 + i] == f[2][c]);
+        BOOST_TEST(g.upper_left[c][3 + i] == f[3][c]);
+      }
+      const double fx = f[4][0] + (body ? 0.5 : 0), fy = f[4][1] + (body ? -0.25 : 0);
+      BOOST_TEST((vx[i] == 0.5 * fx && vy[i] == 0.5 * fy && ux[i] == 0.25 * vx[i] && uy[i] == 0.25 * vy[i]));
+    }
   }
 }
 

@@ -1,0 +1,49 @@
+// The command bench.
+#include <fmt/core.h>
+
+#include <thread>
+
+#include "reports/bench_table.hpp"
+#include "reports/files.hpp"
+#include "runner/app/commands.hpp"
+#include "runner/app/provenance.hpp"
+#include "runner/app/showing.hpp"
+#include "runner/input/messages.hpp"
+#include "runner/judge/gates.hpp"
+#include "runner/trade/bench.hpp"
+#include "runner/trade/bench_scenes.hpp"
+
+namespace diptych::runner {
+namespace {
+
+/// Those that are asked for, each one of the known.
+Names known_ones(const char* option, const Names& asked, const Names& known) {
+  for (const std::string& one : asked) {
+    if (!contains(known, one))
+      throw InputError(
+          fmt::format("{}: found {}; allowed: {}{}", option, words(one), joined(known), hint_of(one, known)));
+  }
+  return asked;
+}
+
+}  // namespace
+
+int bench_command(const Options& options, const std::atomic<bool>& cancelled) {
+  Names scenes;
+  for (const BenchScene& scene : bench_scenes()) scenes.push_back(scene.id);
+  BenchPlan plan{scenes, {"fem", "mpm-musl"}, options.points, options.counts, options.rounds};
+  if (!options.selectors.empty()) plan.scenes = known_ones("bench", options.selectors, scenes);
+  if (!options.methods.empty()) plan.methods = known_ones("--method", options.methods, panels_for(SceneKind::plate));
+  if (plan.threads.empty()) {
+    const int all = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    plan.threads = {1};
+    if (all > 1) plan.threads.push_back(all);
+  }
+  if (!options.json.empty()) prepare(options.json.parent_path().empty() ? "." : options.json.parent_path());
+  const std::vector<reports::BenchRow> rows = bench(plan, &cancelled, progress());
+  fmt::print("{}", reports::bench_text(rows));
+  if (!options.json.empty()) reports::write_file(options.json, reports::bench_json(rows, provenance()));
+  return cancelled ? unstable_or_error : all_passed;
+}
+
+}  // namespace diptych::runner
