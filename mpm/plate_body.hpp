@@ -295,6 +295,9 @@ class PlateBody {
   /// Strains, what follows from them in the cells, and the internal forces of both. keeps_books: also adds up what
   /// damage takes.
   void strain(const VectorField& velocity, double dt, bool keeps_books = false) {
+    if constexpr (convected) {
+      if (scheme_ != Scheme::usf) return strain_and_force<Update::strain>(velocity, dt);  // forces: when all have moved
+    }
     if constexpr (!Model::staggered) {
       if (!damping_) return strain_and_force<Update::both>(velocity, dt);
     }

@@ -101,11 +101,17 @@ struct Band {
   std::array<std::vector<double>, 2> low, high;              ///< kicked velocities of the row's bottom and top nodes
 };
 
+/// Cells from `left` to before `right`, of rows from `bottom` to before `top`.
+struct Reach {
+  std::size_t left = 0, right = 0, bottom = 0, top = 0;
+  bool operator==(const Reach&) const = default;
+};
+
 /// The rows' bands and the threads that take them. Nothing of a sum depends on their number: a node's value is (what
 /// the row below gives) + (what the row above gives), and each of the two is (left cell) + (right cell).
 class Bands {
  public:
-  Bands(std::size_t rows, std::size_t row_length, int threads) : threads_(threads) {
+  Bands(std::size_t rows, std::size_t row_length, int threads) : reach_{0, row_length - 1, 0, rows}, threads_(threads) {
     const std::size_t count = std::min(rows, static_cast<std::size_t>(std::max(1, threads)));
     bands_.resize(count);
     for (std::size_t b = 0; b < count; ++b) {
@@ -127,13 +133,22 @@ class Bands {
     threads_.for_each(bands_.size(), [&](std::size_t b) { f(bands_[b]); });
   }
 
+  /// From now on only these cells have particles: what is outside gives nothing, and its nodes are not visited.
+  void set_reach(const Reach& reach) { reach_ = reach; }
+  const Reach& reach() const { return reach_; }
+
   /// Calls cells(j, band) for each row of cells, which leaves what they give to their nodes in band.shares, and
   /// nodes(j, x, y) for each row of nodes with the sums, as soon as the row of cells above has been visited.
   template <class Cells, class Nodes>
   void gather(Cells&& cells, Nodes&& nodes) {
+    const std::size_t left = reach_.left, end = reach_.right + 1;  // of nodes
+    const auto clear = [&](std::vector<double>& row) {
+      std::fill(row.begin() + static_cast<std::ptrdiff_t>(left), row.begin() + static_cast<std::ptrdiff_t>(end), 0.0);
+    };
     for_each([&](Band& band) {
-      for (auto& row : band.from_below) std::fill(row.begin(), row.end(), 0.0);
-      for (std::size_t j = band.first; j < band.last; ++j) {
+      const std::size_t first = std::max(band.first, reach_.bottom), last = std::min(band.last, reach_.top);
+      for (auto& row : band.from_below) clear(row);
+      for (std::size_t j = first; j < last; ++j) {
         cells(j, band);
         const bool at_seam = j == band.first && &band != &bands_.front();
         for (std::size_t c = 0; c < 2; ++c) {
@@ -141,21 +156,25 @@ class Bands {
           double *below = band.from_below[c].data(), *sum = at_seam ? band.seam[c].data() : band.sum[c].data();
           const double *bl = s.bottom_left.data(), *br = s.bottom_right.data();
           const double *tl = s.top_left.data(), *tr = s.top_right.data();
-          const std::size_t length = band.sum[c].size();
 #pragma GCC ivdep
-          for (std::size_t i = 0; i < length; ++i) {
+          for (std::size_t i = left; i < end; ++i) {
             sum[i] = below[i] + (br[i] + bl[i]);
             below[i] = tr[i] + tl[i];
           }
         }
         if (!at_seam) nodes(j, band.sum[0].data(), band.sum[1].data());
       }
-      if (&band == &bands_.back()) nodes(band.last, band.from_below[0].data(), band.from_below[1].data());
+      if (band.first < reach_.bottom || first >= last) {  // its first row gives nothing to the seam below it
+        for (auto& row : band.seam) clear(row);
+      }
+      const bool to_seam = last == band.last && &band != &bands_.back();
+      if (first < last && !to_seam) nodes(last, band.from_below[0].data(), band.from_below[1].data());
     });
     for (std::size_t b = 1; b < bands_.size(); ++b) {
       Band &below = bands_[b - 1], &above = bands_[b];
+      if (above.first < reach_.bottom || above.first > reach_.top) continue;
       for (std::size_t c = 0; c < 2; ++c) {
-        for (std::size_t i = 0; i < above.seam[c].size(); ++i) above.seam[c][i] += below.from_below[c][i];
+        for (std::size_t i = left; i < end; ++i) above.seam[c][i] += below.from_below[c][i];
       }
       nodes(above.first, above.seam[0].data(), above.seam[1].data());
     }
@@ -167,6 +186,7 @@ class Bands {
 
  private:
   std::vector<Band> bands_;
+  Reach reach_;
   Threads threads_;
 };
 

@@ -124,35 +124,8 @@ Moving::Moving(const Plate&, const Cells& cells, const Places& places, Grid& gri
   list();
 }
 
-void Moving::clear(Band& band) {
-  for (CornerShares& s : band.shares) {
-    for (auto* shares : {&s.bottom_left, &s.bottom_right, &s.top_left, &s.top_right})
-      std::fill(shares->begin(), shares->end(), 0.0);
-  }
-}
-
-template <class Give, class Nodes>
-void Moving::gather(Bands& bands, Give&& particle_gives, Nodes&& nodes) {
-  bands.gather(
-      [&](std::size_t j, Band& band) {
-        clear(band);
-        visit_row(j, [&](const Place& at) {
-          const Vector given = particle_gives(at);
-          const std::size_t i = at.node - grid_.row(j);
-          for (std::size_t c = 0; c < 2; ++c) {
-            CornerShares& s = band.shares[c];
-            s.bottom_left[i] += at.bottom * (at.left * given[c]);
-            s.bottom_right[i + 1] += at.bottom * (at.right * given[c]);
-            s.top_left[i] += at.top * (at.left * given[c]);
-            s.top_right[i + 1] += at.top * (at.right * given[c]);
-          }
-        });
-      },
-      nodes);
-}
-
-void Moving::divide_by_mass(VectorField& field, std::size_t j, const double* x, const double* y) {
-  for (std::size_t i = 0; i <= grid_.nx; ++i) {
+void Moving::divide_by_mass(VectorField& field, const Reach& reach, std::size_t j, const double* x, const double* y) {
+  for (std::size_t i = reach.left; i <= reach.right; ++i) {
     const double m = grid_.mass_of(i, j);
     field.x[grid_.row(j) + i] = m > 0 ? x[i] / m : 0;
     field.y[grid_.row(j) + i] = m > 0 ? y[i] / m : 0;
@@ -184,26 +157,49 @@ void Moving::list() {
   // Each cell's start was counted down from its end; its end is the next one's start.
   std::rotate(start_.begin(), start_.begin() + 1, start_.end());
   start_.back() = cell_.size();
+  find_reach();
+}
+
+void Moving::find_reach() {
+  reach_ = {grid_.nx, 0, grid_.ny, 0};
+  for (std::size_t j = 0; j < grid_.ny; ++j) {
+    const std::size_t *first = start_.data() + j * grid_.nx, *end = first + grid_.nx;  // of cells
+    if (*first == *end) continue;
+    reach_.bottom = std::min(reach_.bottom, j);
+    reach_.top = j + 1;
+    // Up to the first cell with particles, and from behind the last one, nothing is counted.
+    const auto left = static_cast<std::size_t>(std::upper_bound(first, end, *first) - first - 1);
+    const auto right = static_cast<std::size_t>(std::lower_bound(first, end, *end) - first);
+    reach_.left = std::min(reach_.left, left);
+    reach_.right = std::max(reach_.right, right);
+  }
 }
 
 void Moving::map_mass(Bands& bands) {  // eq. 15
-  gather(
+  if (!(bands.reach() == reach_)) {    // nodes that nobody reaches any more have nothing
+    bands.set_reach(reach_);
+    for (auto* field : {&grid_.mass, &grid_.velocity.x, &grid_.velocity.y, &grid_.acceleration.x, &grid_.acceleration.y,
+                        &grid_.kicked.x, &grid_.kicked.y})
+      std::fill(field->begin(), field->end(), 0.0);
+  }
+  gather_by_shape(
       bands,
       [&](const Place&) {
         return Vector{state_.mass, 0};
       },
       [&](std::size_t j, const double* x, const double*) {
-        std::copy(x, x + grid_.row_length(), grid_.mass.begin() + static_cast<std::ptrdiff_t>(grid_.row(j)));
+        const Reach& reach = bands.reach();
+        std::copy(x + reach.left, x + reach.right + 1, grid_.mass.data() + grid_.row(j) + reach.left);
       });
 }
 
 void Moving::map_momentum(Bands& bands) {
-  gather(
+  gather_by_shape(
       bands,
       [&](const Place& at) {
         return Vector{state_.mass * state_.velocity.x[at.particle], state_.mass * state_.velocity.y[at.particle]};
       },
-      [&](std::size_t j, const double* x, const double* y) { divide_by_mass(grid_.velocity, j, x, y); });
+      [&](std::size_t j, const double* x, const double* y) { divide_by_mass(grid_.velocity, bands.reach(), j, x, y); });
 }
 
 void Moving::kick_and_move(Bands& bands, double kick, double drift, double pic, bool) {

@@ -241,7 +241,8 @@ class Moving {
 
   template <class F>
   void visit_row(std::size_t j, F&& f) const {
-    for (std::size_t i = 0; i < grid_.nx; ++i) visit_cell(i, j, f);
+    if (j < reach_.bottom || j >= reach_.top) return;
+    for (std::size_t i = reach_.left; i < reach_.right; ++i) visit_cell(i, j, f);
   }
   Vector position(const Place& at) const {
     const std::size_t c = cell_[at.particle];
@@ -265,7 +266,7 @@ class Moving {
         });
       }
     });
-    map_force(bands, model);
+    if constexpr (what != Update::strain) map_force(bands, model);
   }
 
   /// eqs. 19 and 18 but for the loads, at the particles' present places.
@@ -273,25 +274,23 @@ class Moving {
   void map_force(Bands& bands, Model& model) {
     const double area_x = state_.volume / grid_.hx, area_y = state_.volume / grid_.hy;
     const auto row = model.row(0, 0);
-    bands.gather(
-        [&](std::size_t j, Band& band) {
-          clear(band);
-          visit_row(j, [&](const Place& at) {
-            const std::size_t p = at.particle, i = at.node - grid_.row(j);
-            const material::Tensor stress = row.stress(state_.strain[p], at.cell, p);
-            const auto give = [&](std::size_t c, double along_x, double along_y) {
-              const double x = area_x * along_x, y = area_y * along_y;
-              CornerShares& s = band.shares[c];
-              s.bottom_left[i] += at.bottom * x + at.left * y;
-              s.bottom_right[i + 1] += at.right * y - at.bottom * x;
-              s.top_left[i] += at.top * x - at.left * y;
-              s.top_right[i + 1] -= at.top * x + at.right * y;
-            };
-            give(0, stress.xx, stress.xy);
-            give(1, stress.xy, stress.yy);
-          });
+    gather(
+        bands,
+        [&](const Place& at, Corners& sums) DIPTYCH_INLINE {
+          const material::Tensor stress = row.stress(state_.strain[at.particle], at.cell, at.particle);
+          const auto give = [&](std::size_t c, double along_x, double along_y) DIPTYCH_INLINE {
+            const double x = area_x * along_x, y = area_y * along_y;
+            sums.bottom_left[c] += at.bottom * x + at.left * y;
+            sums.bottom_right[c] += at.right * y - at.bottom * x;
+            sums.top_left[c] += at.top * x - at.left * y;
+            sums.top_right[c] -= at.top * x + at.right * y;
+          };
+          give(0, stress.xx, stress.xy);
+          give(1, stress.xy, stress.yy);
         },
-        [&](std::size_t j, const double* x, const double* y) { divide_by_mass(grid_.acceleration, j, x, y); });
+        [&](std::size_t j, const double* x, const double* y) {
+          divide_by_mass(grid_.acceleration, bands.reach(), j, x, y);
+        });
   }
 
   /// Of the particles that started in a cell.
@@ -317,12 +316,54 @@ class Moving {
     }
   }
 
-  static void clear(Band& band);
+  /// What the particles of a cell give to its corners, by component.
+  struct Corners {
+    std::array<double, 2> bottom_left{}, bottom_right{}, top_left{}, top_right{};
+  };
+
+  /// Calls give(place, corners) for all particles and nodes(j, x, y) for the rows of nodes, see Bands::gather.
   template <class Give, class Nodes>
-  void gather(Bands& bands, Give&& particle_gives, Nodes&& nodes);
-  void divide_by_mass(VectorField& field, std::size_t j, const double* x, const double* y);
+  void gather(Bands& bands, Give&& give, Nodes&& nodes) {
+    const Reach reach = bands.reach();
+    bands.gather(
+        [&](std::size_t j, Band& band) {
+          for (CornerShares& s : band.shares)  // beyond the reach there is no cell
+            s.bottom_right[reach.left] = s.top_right[reach.left] = s.bottom_left[reach.right] =
+                s.top_left[reach.right] = 0;
+          for (std::size_t i = reach.left; i < reach.right; ++i) {
+            Corners sums;
+            visit_cell(i, j, [&](const Place& at) DIPTYCH_INLINE { give(at, sums); });
+            for (std::size_t c = 0; c < 2; ++c) {
+              CornerShares& s = band.shares[c];
+              s.bottom_left[i] = sums.bottom_left[c];
+              s.bottom_right[i + 1] = sums.bottom_right[c];
+              s.top_left[i] = sums.top_left[c];
+              s.top_right[i + 1] = sums.top_right[c];
+            }
+          }
+        },
+        nodes);
+  }
+  /// The same of a vector that each particle gives by its shape functions, eq. 7.
+  template <class Given, class Nodes>
+  void gather_by_shape(Bands& bands, Given&& given, Nodes&& nodes) {
+    gather(
+        bands,
+        [&](const Place& at, Corners& sums) DIPTYCH_INLINE {
+          const Vector all = given(at);
+          for (std::size_t c = 0; c < 2; ++c) {
+            sums.bottom_left[c] += at.bottom * (at.left * all[c]);
+            sums.bottom_right[c] += at.bottom * (at.right * all[c]);
+            sums.top_left[c] += at.top * (at.left * all[c]);
+            sums.top_right[c] += at.top * (at.right * all[c]);
+          }
+        },
+        nodes);
+  }
+  void divide_by_mass(VectorField& field, const Reach&, std::size_t j, const double* x, const double* y);
   void cross(std::size_t p, double x, double y);
   void list();
+  void find_reach();
 
   Grid& grid_;
   std::size_t per_row_, nx_, ny_;
@@ -330,6 +371,7 @@ class Moving {
   std::vector<std::uint32_t> cell_, order_;  // of each particle; particles by cells
   VectorField offset_, advance_;             // in cells, from the cell's centre; of the step at hand
   std::vector<std::size_t> start_;           // particles of cell c are order_[start_[c], start_[c+1])
+  Reach reach_;                              // outside there are none
   bool moved_ = false;
   std::string trouble_;
 };

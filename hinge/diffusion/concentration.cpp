@@ -42,7 +42,7 @@ class NodeField {
 /// bits with opposite signs; and mirrored fields give mirrored bits.
 template <class Combine>
 DIPTYCH_WIDEST void for_inflows(std::ptrdiff_t nodes, std::ptrdiff_t up, const double* __restrict east,
-                              const double* __restrict north, const double* __restrict u, Combine combine) {
+                                const double* __restrict north, const double* __restrict u, Combine combine) {
 #pragma GCC ivdep
   for (std::ptrdiff_t k = 0; k < nodes; ++k) {
     const double x = east[k] * (u[k + 1] - u[k]) - east[k - 1] * (u[k] - u[k - 1]);
@@ -313,11 +313,17 @@ struct Concentration::Parts {
   void euler(std::span<const double> source, double dt, long parts) {
     const double part = dt / static_cast<double>(parts);
     set_scale(part);
+    const bool fed_everywhere = held.empty() && 2 * fed_nodes.size() > volume.size();
     for (long i = 0; i < parts; ++i) {
-      const double* __restrict u = c.data(), * __restrict s = scale.data();
+      const double* __restrict u = c.data(), * __restrict s = scale.data(), * __restrict q = source.data();
       double* __restrict out = next.data();
-      sweep(u, [=](std::ptrdiff_t k, double inflow) DIPTYCH_INLINE { out[k] = u[k] + s[k] * inflow; });
-      for (const std::size_t k : fed_nodes) out[k] += part * source[k];
+      if (fed_everywhere) {
+        sweep(u,
+              [=](std::ptrdiff_t k, double inflow) DIPTYCH_INLINE { out[k] = (u[k] + s[k] * inflow) + part * q[k]; });
+      } else {
+        sweep(u, [=](std::ptrdiff_t k, double inflow) DIPTYCH_INLINE { out[k] = u[k] + s[k] * inflow; });
+        for (const std::size_t k : fed_nodes) out[k] += part * source[k];
+      }
       drawn -= part * into_held(u);
       std::swap(c, next);
     }

@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "hinge/wide.hpp"
+
 namespace diptych::diffusion {
 namespace {
 
@@ -15,7 +17,15 @@ void require(bool condition, const char* message) {
 }
 
 /// Bounded from both sides; NaN stays NaN.
-double clip(double value, double low, double high) { return value < low ? low : value > high ? high : value; }
+[[gnu::always_inline]] inline double clip(double value, double low, double high) {
+  const double below = value > high ? high : value;
+  return value < low ? low : below;
+}
+
+[[gnu::always_inline]] inline double diffusivity(double mobility, double rupture_strain, double floor,
+                                                 double volumetric_strain) {
+  return clip(mobility * ((rupture_strain - volumetric_strain) / rupture_strain), floor * mobility, mobility);
+}
 
 /// Area between the x-axis and the circle over [x0, x1], 0 ≤ x0 ≤ x1 ≤ r: two triangles and a sector.
 double area_under_circle(double r, double x0, double x1) {
@@ -23,11 +33,32 @@ double area_under_circle(double r, double x0, double x1) {
   return (x1 * y1 - x0 * y0 + r * r * std::atan2(y0 * x1 - y1 * x0, x0 * x1 + y0 * y1)) / 2;
 }
 
+/// Eq. 25 of all cells.
+DIPTYCH_WIDE void diffusivities(const Diffusion& diffusion, std::size_t cells, const double* __restrict strain,
+                                double* __restrict out) {
+  const double mobility = diffusion.mobility, rupture = diffusion.rupture_strain, floor = diffusion.floor;
+#pragma GCC ivdep
+  for (std::size_t cell = 0; cell < cells; ++cell) out[cell] = diffusivity(mobility, rupture, floor, strain[cell]);
+}
+
+/// Eq. 27 of a row of cells, from the nodes below and above: C_d rises, and where it heals it also falls.
+template <bool everywhere>
+DIPTYCH_WIDE void densities(std::size_t cells, const double* __restrict low, const double* __restrict high,
+                            double crack_volume, double cap, bool heals, const unsigned char* __restrict critical,
+                            double* __restrict out) {
+#pragma GCC ivdep
+  for (std::size_t i = 0; i < cells; ++i) {
+    const double mean = 0.25 * ((low[i] + high[i + 1]) + (low[i + 1] + high[i]));
+    const double density = clip(crack_volume * mean, 0, cap);  // schemes that are not positive may undershoot
+    const double held = out[i], more = density <= held ? held : density, now = heals ? density : more;
+    out[i] = everywhere || critical[i] != 0 ? now : held;
+  }
+}
+
 }  // namespace
 
 double diffusivity(const Diffusion& diffusion, double volumetric_strain) {
-  return clip(diffusion.mobility * ((diffusion.rupture_strain - volumetric_strain) / diffusion.rupture_strain),
-              diffusion.floor * diffusion.mobility, diffusion.mobility);
+  return diffusivity(diffusion.mobility, diffusion.rupture_strain, diffusion.floor, volumetric_strain);
 }
 
 double area_within(double radius, double x0, double x1, double y0, double y1) {
@@ -167,18 +198,16 @@ void DamageEvolution::diffuse(std::span<const double> strain, double dt) {
     for (const FedNode& fed : fed_nodes_)
       source_[fed.node] = std::min(source_[fed.node], std::max(0.0, most - c[fed.node]) / dt);
   }
-  for (std::size_t cell = 0; cell < strain.size(); ++cell) diffusivity_[cell] = diffusivity(d, strain[cell]);
+  diffusivities(d, strain.size(), strain.data(), diffusivity_.data());
   concentration_->step(diffusivity_, source_, dt);
 
   const std::span<const double> c = std::as_const(*concentration_).values();
-  const auto columns = static_cast<std::size_t>(grid_.nx);
-  for (std::size_t cell = 0; cell < strain.size(); ++cell) {
-    if (!critical_.empty() && !critical_[cell]) continue;
-    const std::size_t left = cell + cell / columns, above = left + columns + 1;
-    const double mean = 0.25 * ((c[left] + c[above + 1]) + (c[left + 1] + c[above]));
-    // Eq. 27. Schemes that are not positive may undershoot.
-    const double density = clip(d.crack_volume * mean, 0, evolution_.cap);
-    if (evolution_.heals || !(density <= crack_density_[cell])) crack_density_[cell] = density;
+  const auto columns = static_cast<std::size_t>(grid_.nx), rows = static_cast<std::size_t>(grid_.ny);
+  for (std::size_t j = 0; j < rows; ++j) {
+    const double* low = c.data() + j * (columns + 1);
+    const auto renew = critical_.empty() ? densities<true> : densities<false>;
+    renew(columns, low, low + columns + 1, d.crack_volume, evolution_.cap, evolution_.heals,
+          critical_.data() + (critical_.empty() ? 0 : j * columns), crack_density_.data() + j * columns);
   }
 }
 

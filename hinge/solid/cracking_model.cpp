@@ -9,10 +9,10 @@ namespace {
 
 /// Eqs. 23b to 23d of a run of cells.
 DIPTYCH_WIDEST void stiffnesses(const material::TensileDamage& damage, std::size_t cells,
-                              const double* __restrict crack_density, double* __restrict open_normal,
-                              double* __restrict open_cross, double* __restrict open_shear,
-                              double* __restrict closed_normal, double* __restrict closed_cross,
-                              double* __restrict closed_shear) {
+                                const double* __restrict crack_density, double* __restrict open_normal,
+                                double* __restrict open_cross, double* __restrict open_shear,
+                                double* __restrict closed_normal, double* __restrict closed_cross,
+                                double* __restrict closed_shear) {
   const material::TensileDamage law = damage;
 #pragma GCC ivdep
   for (std::size_t i = 0; i < cells; ++i) {
