@@ -43,6 +43,7 @@ using PlateTheory = analytic::PlaneDiscretisation::Method;
 Panel fem_panel() {
   Panel p{.id = "fem", .name = "FEM", .look = fem_look, .work = "element-steps", .elements = true};
   p.refuses = {{"boundary-layer"}, {"body-force", "convection"}};
+  p.usual = true;
   p.shows_not = {"convection", "pic"};  // its mesh goes with the material, and it maps no velocities
   p.bar_theory = BarTheory::fem;
   p.plate_theory = PlateTheory::fem;
@@ -61,6 +62,7 @@ Panel fem_panel() {
 
 Panel mpm_panel(const char* id, const char* name, mpm::Scheme scheme, BarTheory of_bars, PlateTheory of_plates) {
   Panel p{.id = id, .name = name, .look = mpm_look, .work = "particle-steps", .particles = true, .grid_contact = true};
+  p.usual = scheme == mpm::Scheme::musl;
   p.half_steps = scheme == mpm::Scheme::usf;
   p.bar_theory = of_bars;
   p.plate_theory = of_plates;

@@ -54,6 +54,7 @@ struct Panel {
   bool particles = false;     ///< its cells hold particles, whose places are an axis of its runs
   bool elements = false;      ///< its fields are those of a mesh's elements, drawn as steps; else those of points
   bool grid_contact = false;  ///< bodies touch as soon as they share a node of the grid; else when their ends meet
+  bool usual = false;         ///< is meant where nobody says which of its family
   bool half_steps = false;    ///< strains stand half a step beside whole ones, and damage with them
 
   /// Features of bars that it does not take, alone or together.

@@ -34,6 +34,10 @@ expect 14 'allowed: 1% or 0.01' "$program" pick bar.mode.fixed-free --error much
 expect 14 '; did you mean "stress.L1"' "$program" trade bar.mode.fixed-free --rounds 0 --quantity stres.L1 --out traded
 expect 14 'time: found 0.123; allowed' "$program" trade bar.mode.fixed-free --rounds 0 --time 0.123 --out traded
 expect 14 'did you mean "courant"' "$program" trade bar.mode.fixed-free --over courrant=1
+expect 0 'elastic +fem +[0-9]+ +[0-9x]+ +1 +[0-9.]+' "$program" bench elastic --points 600 --rounds 1 --threads 1 --json bench.jsonl
+expect 0 '"type":"bench","scene":"elastic","method":"mpm-musl"' cat bench.jsonl
+expect 14 'found "elastik"; allowed: .*did you mean "elastic"' "$program" bench elastik
+expect 14 'method: found "femm"; allowed: .*did you mean "fem"' "$program" bench --method femm
 expect 14 '2 cases; allowed: one' "$program" trade bar.mode.fixed-free bar.energy
 expect 14 'found "plain"; allowed: "", "plane-stress"' "$program" pick plate.s-wave --rounds 0 --error 1% --scene plain
 expect 14 'did you mean "seconds"' "$program" pick bar.mode.fixed-free --error 1% --by second

@@ -14,7 +14,7 @@ only() { # only FOLDER OTHERS [EXCEPT]: files of FOLDER, but for EXCEPT, include
 }
 only hinge/material hinge/material
 only hinge/diffusion 'hinge/(diffusion|wide)'
-only hinge/solid 'hinge/(material|diffusion|solid)'
+only hinge/solid 'hinge/(material|diffusion|solid|wide)'
 only hinge/scene 'hinge/(material|diffusion|solid|scene|step)'
 only hinge/step 'hinge/(material|diffusion|solid|scene|step)'
 only fem 'hinge|fem'

@@ -10,6 +10,7 @@
 #include "runner/app/showing.hpp"
 #include "runner/input/messages.hpp"
 #include "runner/judge/gates.hpp"
+#include "runner/panel.hpp"
 #include "runner/trade/bench.hpp"
 #include "runner/trade/bench_scenes.hpp"
 
@@ -26,12 +27,20 @@ Names known_ones(const char* option, const Names& asked, const Names& known) {
   return asked;
 }
 
+Names usual_methods() {
+  Names all;
+  for (const std::string& id : panels_for(SceneKind::plate)) {
+    if (panel(id).usual) all.push_back(id);
+  }
+  return all;
+}
+
 }  // namespace
 
 int bench_command(const Options& options, const std::atomic<bool>& cancelled) {
   Names scenes;
   for (const BenchScene& scene : bench_scenes()) scenes.push_back(scene.id);
-  BenchPlan plan{scenes, {"fem", "mpm-musl"}, options.points, options.counts, options.rounds};
+  BenchPlan plan{scenes, usual_methods(), options.points, options.counts, options.rounds};
   if (!options.selectors.empty()) plan.scenes = known_ones("bench", options.selectors, scenes);
   if (!options.methods.empty()) plan.methods = known_ones("--method", options.methods, panels_for(SceneKind::plate));
   if (plan.threads.empty()) {
