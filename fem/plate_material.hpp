@@ -20,7 +20,7 @@ struct Taken {
 
 /// What each cell's mean strain shows to what changes in cells.
 template <class Driver>
-DIPTYCH_WIDE void drive_row(const CellRow& displacement, const CellSize& h, Index cells, Driver driver,
+DIPTYCH_WIDEST void drive_row(const CellRow& displacement, const CellSize& h, Index cells, Driver driver,
                             double* __restrict out) {
   const CellRow u = displacement;
   const CellSize size = h;
@@ -30,7 +30,7 @@ DIPTYCH_WIDE void drive_row(const CellRow& displacement, const CellSize& h, Inde
 
 /// Stresses of the triangles of a run of cells.
 template <class LawRow>
-DIPTYCH_WIDE void stress_row(const CellRow& displacement, const CellSize& h, Index cells, LawRow law,
+DIPTYCH_WIDEST void stress_row(const CellRow& displacement, const CellSize& h, Index cells, LawRow law,
                              const std::array<TensorRow, 4>& out) {
   const CellRow u = displacement;
   const CellSize size = h;

@@ -34,7 +34,7 @@ double area_under_circle(double r, double x0, double x1) {
 }
 
 /// Eq. 25 of all cells.
-DIPTYCH_WIDE void diffusivities(const Diffusion& diffusion, std::size_t cells, const double* __restrict strain,
+DIPTYCH_WIDEST void diffusivities(const Diffusion& diffusion, std::size_t cells, const double* __restrict strain,
                                 double* __restrict out) {
   const double mobility = diffusion.mobility, rupture = diffusion.rupture_strain, floor = diffusion.floor;
 #pragma GCC ivdep
@@ -43,7 +43,7 @@ DIPTYCH_WIDE void diffusivities(const Diffusion& diffusion, std::size_t cells, c
 
 /// Eq. 27 of a row of cells, from the nodes below and above: C_d rises, and where it heals it also falls.
 template <bool everywhere>
-DIPTYCH_WIDE void densities(std::size_t cells, const double* __restrict low, const double* __restrict high,
+DIPTYCH_WIDEST void densities(std::size_t cells, const double* __restrict low, const double* __restrict high,
                             double crack_volume, double cap, bool heals, const unsigned char* __restrict critical,
                             double* __restrict out) {
 #pragma GCC ivdep
