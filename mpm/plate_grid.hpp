@@ -180,9 +180,8 @@ class Bands {
     }
   }
 
-  std::size_t bytes() const {
-    return bands_.size() * (18 * bands_[0].sum[0].capacity() * sizeof(double) + sizeof(Band));
-  }
+  /// With one thread.
+  std::size_t bytes() const { return 18 * bands_[0].sum[0].capacity() * sizeof(double) + sizeof(Band); }
 
  private:
   std::vector<Band> bands_;

@@ -29,7 +29,7 @@ void measure_bits(const LeafScene<S, M, R>& it, const Stepping& stepping, const 
   if (asked("bits.threads")) {
     constexpr int other_threads = 3;  // which divides no usual number of cells
     Stepping threaded = stepping;
-    threaded.threads = other_threads;
+    threaded.threads = stepping.threads == other_threads ? 1 : other_threads;
     compare("bits.threads", it.scene, it.mesh, threaded, {}, false);
   }
   if (asked("bits.mirror")) {
@@ -80,6 +80,7 @@ reports::Run measured(const LeafScene<S, M, R>& it, const TimeStep& step, const 
       plan_steps(instants, step, what_to_meet(c), it.reads(running.keep_fields), books_of(c, it.leaf, running.books));
   Stepping stepping = plan.stepping;
   stepping.cancelled = running.cancelled;
+  stepping.threads = running.threads_a_run;
   run.time_step = stepping.time_step;
   run.time_step_limit = step.limit;
   run.courant = stepping.time_step / step.unit;

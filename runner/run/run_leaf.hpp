@@ -14,7 +14,7 @@ namespace diptych::runner {
 
 /// How to run, as against what.
 struct Running {
-  int threads = 1;
+  int threads = 1;                               ///< for all runs together
   const std::atomic<bool>* cancelled = nullptr;  ///< turns true where runs should stop soon
   Books books = Books::off;                      ///< kept at least; their sums also where a gate asks for them
   bool keep_fields = false;                      ///< keep all fields at the sample times in the results
@@ -25,6 +25,7 @@ struct Running {
   /// Told of each run, from one thread at a time.
   std::function<void(std::size_t which, const reports::Run&)> finished = {};
   std::function<void(std::size_t done, std::size_t total)> progress = {};  ///< after each run, likewise
+  int threads_a_run = 1;                                                   ///< of plates; the same bits for any number
 };
 
 // The case of the next four is the one that the leaf has: see case_of.

@@ -42,6 +42,12 @@ struct Task {
 
 }  // namespace
 
+int threads_within(int threads, std::size_t runs, int unknowns) {
+  constexpr int worth = 10'000;  // unknowns of a thread: with fewer the others wait for each other as long as they work
+  const int spare = runs == 0 ? 1 : threads / static_cast<int>(std::min<std::size_t>(runs, 1'000'000));
+  return std::clamp(unknowns / worth, 1, std::max(1, spare));
+}
+
 std::vector<reports::Case> run_cases(const std::vector<Case>& cases, const Running& running) {
   std::vector<Task> tasks;
   std::vector<reports::Case> results;
@@ -104,7 +110,8 @@ std::vector<reports::Case> run_cases(const std::vector<Case>& cases, const Runni
 
   std::mutex telling;
   std::size_t done = 0;
-  // Each run is serial and writes its own slot, so neither the number of threads nor their order can touch a bit.
+  // Each run writes its own slot and has the same bits with any number of threads of its own, so neither their number
+  // nor their order can touch a bit.
   for_each(tasks.size(), [&](std::size_t t) {
     const Task& task = tasks[t];
     reports::Run& run = results[task.which].runs[task.slot];
@@ -116,7 +123,9 @@ std::vector<reports::Case> run_cases(const std::vector<Case>& cases, const Runni
       run.status = "left out";
     } else {
       try {
-        run = run_leaf(*task.c, task.leaf, task.step, running);
+        Running one = running;
+        one.threads_a_run = threads_within(running.threads, tasks.size(), run.unknowns);
+        run = run_leaf(*task.c, task.leaf, task.step, one);
       } catch (const std::exception& problem) {
         run.status = "error";
         run.message = problem.what();

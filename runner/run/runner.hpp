@@ -1,6 +1,7 @@
 // Running a case: every leaf of its sweep, in parallel, with the same bits whatever the number of threads.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "reports/results.hpp"
@@ -14,5 +15,9 @@ namespace diptych::runner {
 /// status "cancelled"; finished ones stay. A case whose exact solution fails its own test has only runs that cannot be
 /// judged.
 std::vector<reports::Case> run_cases(const std::vector<Case>&, const Running&);
+
+/// Threads within a run of so many unknowns, where there are fewer runs than threads: as many as the runs leave each
+/// other and as find enough to do.
+int threads_within(int threads, std::size_t runs, int unknowns);
 
 }  // namespace diptych::runner

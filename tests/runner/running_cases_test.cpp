@@ -249,6 +249,15 @@ BOOST_AUTO_TEST_CASE(a_label_of_no_run_is_answered_with_those_there_are) {
   BOOST_TEST(holds(unlike, "  mpm-musl N=100 C=0.9 ppc=1"));
 }
 
+BOOST_AUTO_TEST_CASE(threads_that_no_run_needs_go_into_the_runs_that_are_large_enough) {
+  BOOST_TEST(threads_within(8, 2, 1'000'000) == 4);
+  BOOST_TEST(threads_within(8, 3, 1'000'000) == 2);
+  BOOST_TEST(threads_within(8, 16, 1'000'000) == 1);
+  BOOST_TEST(threads_within(8, 1, 9'999) == 1);
+  BOOST_TEST(threads_within(8, 1, 29'999) == 2);
+  BOOST_TEST(threads_within(1, 1, 1'000'000) == 1);
+}
+
 BOOST_AUTO_TEST_CASE(a_solution_is_trusted_by_its_own_test_alone) {
   BOOST_TEST(doubt(1e-5) == "");
   BOOST_TEST(doubt(1e-3).find("fails its own test") != std::string::npos);
