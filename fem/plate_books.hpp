@@ -22,14 +22,44 @@
 #include "fem/plate_viscosity.hpp"
 #include "hinge/scene/scene.hpp"
 #include "hinge/step/ledger.hpp"
+#include "hinge/wide.hpp"
 
 namespace diptych::fem {
 
 /// The ledger has one number for a vector: its component along the diagonal.
 inline double along_diagonal(const Vector& v) { return (v[0] + v[1]) / std::sqrt(2.0); }
 
+/// Σ A [ψ + ½ σ:(ε' − ε)] of the triangles of each cell of a row [J/m]: ε where the step began and ε' where it ended,
+/// or `back`, ψ and σ being those at ε.
+template <bool back, class LawRow>
+DIPTYCH_WIDE void energy_row(const CellRow& displacement, const CellRow& velocity, const CellSize& h, double dt,
+                             Index cells, LawRow law, const material::Stiffness& solid, const StressRows& kept,
+                             const unsigned char* __restrict own, double* __restrict out) {
+  const CellRow u = displacement, v = velocity;
+  const CellSize size = h;
+  const material::Stiffness whole = solid;
+  const auto stress_of = kept.triangle;
+  const double area = h.triangle_area();
+#pragma GCC ivdep
+  for (Index i = 0; i < cells; ++i) {
+    const Triangles now = strains(u[i], size), rate = strains(v[i], size);
+    const bool is_own = own[i] != 0;
+    const auto energy = [&](Index t) DIPTYCH_INLINE {
+      const material::Tensor then = now[t] - rate[t] * dt;
+      const material::Tensor here = back ? now[t] : then, there = back ? then : now[t];
+      const material::Tensor of_whole = whole.stress(here), own_one = stress_of[t].template at<false>(i);
+      const material::Tensor stress{is_own ? own_one.xx : of_whole.xx, is_own ? own_one.yy : of_whole.yy,
+                                    is_own ? own_one.xy : of_whole.xy};
+      return area * (stored_in(law, whole, here, i) + stress.contract(there - here) / 2);
+    };
+    out[i] = ((energy(0) + energy(1)) + energy(2)) + energy(3);
+  }
+}
+
 template <solid::PlaneModel Model>
 class PlateBooks {
+  static constexpr bool by_rows = !Model::yields && !Model::linear && TellsEnergy<typename Model::Row>;
+
  public:
   PlateBooks(const Mesh& mesh, const Rows& rows, const Border& border, const CellStress& stress,
              const PlateMaterial<Model>& material, std::optional<ArtificialViscosity>& viscosity, double dt, bool kept)
@@ -44,6 +74,7 @@ class PlateBooks {
     if (Model::linear || !kept) return;
     recoverable_.resize(mesh.cells());
     own_before_.resize(mesh.cells());
+    if (by_rows) after_.resize(mesh.cells());
   }
 
   double energy() const {
@@ -94,7 +125,8 @@ class PlateBooks {
   }
 
   Index bytes() const {
-    return sums_.capacity() * sizeof(RowSums) + recoverable_.capacity() * sizeof(double) + own_before_.capacity();
+    return sums_.capacity() * sizeof(RowSums) + (recoverable_.capacity() + after_.capacity()) * sizeof(double) +
+           own_before_.capacity();
   }
 
  private:
@@ -114,6 +146,13 @@ class PlateBooks {
       });
       return sum;
     }
+    if constexpr (by_rows) {
+      if (!recoverable_.empty()) {
+        energies<false>(row, recoverable_);
+        mesh_.for_row(row, [&](CellAt at) { sum += recoverable_[at.cell]; });
+        return sum;
+      }
+    }
     mesh_.for_row(row, [&](CellAt at) {
       const Triangles now = mesh_.strain(at);
       const double energy = energy_between(at.cell, before(at, now), now);
@@ -121,6 +160,13 @@ class PlateBooks {
       sum += energy;
     });
     return sum;
+  }
+  template <bool back>
+  void energies(Index row, std::vector<double>& out) const {
+    const Index first = row * mesh_.nx;
+    energy_row<back>(mesh_.displacements({first, row}), mesh_.velocities({first, row}), mesh_.h, dt_, mesh_.nx,
+                     material_.model().row(first, 4 * first), stress_.solid, stress_.rows(first), &stress_.own[first],
+                     &out[first]);
   }
   /// Strains of a cell where the step began that ended with these.
   Triangles before(CellAt at, const Triangles& now) const {
@@ -145,10 +191,15 @@ class PlateBooks {
   double dissipation() {
     rows_.for_each([&](Index j) {
       sums_[j].dissipated = 0;
+      if constexpr (by_rows) energies<true>(j, after_);
       mesh_.for_row(j, [&](CellAt at) {
         if (!stress_.is_own(at.cell) && !own_before_[at.cell]) return;
-        const Triangles now = mesh_.strain(at);
-        sums_[j].dissipated += recoverable_[at.cell] - energy_between(at.cell, now, before(at, now));
+        const auto after = [&] {
+          if (by_rows) return after_[at.cell];
+          const Triangles now = mesh_.strain(at);
+          return energy_between(at.cell, now, before(at, now));
+        };
+        sums_[j].dissipated += recoverable_[at.cell] - after();
       });
     });
     double sum = 0;
@@ -165,6 +216,7 @@ class PlateBooks {
   double dt_;
   std::vector<RowSums> sums_;              // per row, and the top row of nodes
   std::vector<double> recoverable_;        // per cell, where the solid may change [J/m]
+  std::vector<double> after_;              // likewise: what of it is left
   std::vector<unsigned char> own_before_;  // likewise: CellStress::own before the step's update
 };
 

@@ -21,7 +21,7 @@ struct Taken {
 /// What each cell's mean strain shows to what changes in cells.
 template <class Driver>
 DIPTYCH_WIDEST void drive_row(const CellRow& displacement, const CellSize& h, Index cells, Driver driver,
-                            double* __restrict out) {
+                              double* __restrict out) {
   const CellRow u = displacement;
   const CellSize size = h;
 #pragma GCC ivdep
@@ -31,7 +31,7 @@ DIPTYCH_WIDEST void drive_row(const CellRow& displacement, const CellSize& h, In
 /// Stresses of the triangles of a run of cells.
 template <class LawRow>
 DIPTYCH_WIDEST void stress_row(const CellRow& displacement, const CellSize& h, Index cells, LawRow law,
-                             const std::array<TensorRow, 4>& out) {
+                               const std::array<TensorRow, 4>& out) {
   const CellRow u = displacement;
   const CellSize size = h;
   const std::array<TensorRow, 4> stress = out;
@@ -40,6 +40,39 @@ DIPTYCH_WIDEST void stress_row(const CellRow& displacement, const CellSize& h, I
     const Triangles strain = strains(u[i], size);
     const auto set = [&](Index t) DIPTYCH_INLINE { stress[t].set(i, law.stress(strain[t], i, 4 * i + t)); };
     set(0), set(1), set(2), set(3);
+  }
+}
+
+/// A law whose rows tell energies, too: loops then ask all of a row's cells at once.
+template <class LawRow>
+concept TellsEnergy = requires(const LawRow& law, const material::Tensor& strain) {
+  law.stored(strain, Index{});
+  law.whole(Index{});
+};
+
+/// ψ of a triangle of a row's i-th cell [J/m³].
+template <TellsEnergy LawRow>
+[[gnu::always_inline]] inline double stored_in(const LawRow& law, const material::Stiffness& solid,
+                                               const material::Tensor& strain, Index i) {
+  const double whole = solid.stress(strain).contract(strain) / 2, cracked = law.stored(strain, i);
+  return law.whole(i) ? whole : cracked;
+}
+
+/// ψ of each triangle where the last step began and where it ended: eight rows of as many numbers as there are cells.
+template <class LawRow>
+DIPTYCH_WIDE void stored_row(const CellRow& displacement, const CellRow& velocity, const CellSize& h, double dt,
+                             Index cells, LawRow law, const material::Stiffness& solid, double* __restrict out) {
+  const CellRow u = displacement, v = velocity;
+  const CellSize size = h;
+  const material::Stiffness whole = solid;
+#pragma GCC ivdep
+  for (Index i = 0; i < cells; ++i) {
+    const Triangles now = strains(u[i], size), rate = strains(v[i], size);
+    const auto tell = [&](Index t) DIPTYCH_INLINE {
+      out[2 * t * cells + i] = stored_in(law, whole, now[t] - rate[t] * dt, i);
+      out[(2 * t + 1) * cells + i] = stored_in(law, whole, now[t], i);
+    };
+    tell(0), tell(1), tell(2), tell(3);
   }
 }
 
@@ -104,8 +137,26 @@ class PlateMaterial {
   /// What has changed in a row's cells takes effect: the least that each can have taken is the smaller of the two falls
   /// of ψ.
   void renew(Index j, double dt, bool counts, Taken& taken) {
-    const Index first = j * mesh_.nx;
-    if (!counts) return model_.renew(first, mesh_.nx);
+    const Index first = j * mesh_.nx, n = mesh_.nx;
+    if (!counts) return model_.renew(first, n);
+    if constexpr (!Model::yields && TellsEnergy<typename Model::Row>) {
+      std::vector<unsigned char> changes(n);
+      for (Index i = 0; i < n; ++i) changes[i] = model_.outdated(first + i);
+      if (std::find(changes.begin(), changes.end(), 1) == changes.end()) return;
+      std::vector<double> before(8 * n), after(8 * n);
+      const auto tell = [&](std::vector<double>& energy) {
+        stored_row(mesh_.displacements({first, j}), mesh_.velocities({first, j}), mesh_.h, dt, n,
+                   model_.row(first, 4 * first), stress_.solid, energy.data());
+      };
+      tell(before);
+      model_.renew(first, n);
+      tell(after);
+      const auto fall = [&](Index k, Index i) { return before[k * n + i] - after[k * n + i]; };
+      for (Index i = 0; i < n; ++i) {
+        for (Index t = 0; t < 4 && changes[i]; ++t) taken.by_damage += std::min(fall(2 * t, i), fall(2 * t + 1, i));
+      }
+      return;
+    }
     mesh_.for_row(j, [&](CellAt at) {
       if (!model_.outdated(at.cell)) return;
       const auto before = stored_along(at, dt);

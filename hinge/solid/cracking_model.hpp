@@ -28,6 +28,7 @@ class Cracking::Model {
   /// Cracks are open where the mean strain is not negative; its sign is that of ε_xx + ε_yy.
   struct Row {
     StiffnessRow open, closed;
+    const double* crack_density;
 
     [[gnu::always_inline]] material::Stiffness stiffness(const material::Tensor& strain, std::size_t i) const {
       const double normal = open.normal[i], cross = open.cross[i], shear = open.shear[i];
@@ -42,9 +43,13 @@ class Cracking::Model {
                                                    double&) const {
       return stress(strain, i, p);
     }
+    [[gnu::always_inline]] double stored(const material::Tensor& strain, std::size_t i) const {
+      return stiffness(strain, i).stress(strain).contract(strain) / 2;
+    }
+    [[gnu::always_inline]] bool whole(std::size_t i) const { return crack_density[i] == 0; }
   };
-  Row row(std::size_t first_cell, std::size_t) {
-    return {StiffnessRow(open_, first_cell), StiffnessRow(closed_, first_cell)};
+  Row row(std::size_t first_cell, std::size_t) const {
+    return {StiffnessRow(open_, first_cell), StiffnessRow(closed_, first_cell), crack_density_.data() + first_cell};
   }
 
   material::Stiffness stiffness(const material::Tensor& strain, std::size_t cell) const {

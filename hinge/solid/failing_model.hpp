@@ -33,8 +33,12 @@ class Failing::Model {
                                                    double&) const {
       return stress(strain, i, p);
     }
+    [[gnu::always_inline]] double stored(const material::Tensor& strain, std::size_t i) const {
+      return law.stored(strain, dilatancy[i]);
+    }
+    [[gnu::always_inline]] bool whole(std::size_t i) const { return dilatancy[i] == 0; }
   };
-  Row row(std::size_t first_cell, std::size_t) { return {law_, dilatancy_.of_cells().data() + first_cell}; }
+  Row row(std::size_t first_cell, std::size_t) const { return {law_, dilatancy_.of_cells().data() + first_cell}; }
 
   material::Tensor standing(const material::Tensor& strain, std::size_t cell, std::size_t) const {
     return law_.stress(strain, dilatancy_.of_cells()[cell]);
