@@ -134,8 +134,10 @@ class PlateMaterial {
     return energy;
   }
 
-  /// What has changed in a row's cells takes effect: the least that each can have taken is the smaller of the two falls
-  /// of ψ.
+  /// What damage can have taken at the least, of the falls of ψ where the step began and where it ended.
+  static double least_taken(double at_begin, double at_end) { return std::min(at_begin, at_end); }
+
+  /// What has changed in a row's cells takes effect.
   void renew(Index j, double dt, bool counts, Taken& taken) {
     const Index first = j * mesh_.nx, n = mesh_.nx;
     if (!counts) return model_.renew(first, n);
@@ -153,7 +155,7 @@ class PlateMaterial {
       tell(after);
       const auto fall = [&](Index k, Index i) { return before[k * n + i] - after[k * n + i]; };
       for (Index i = 0; i < n; ++i) {
-        for (Index t = 0; t < 4 && changes[i]; ++t) taken.by_damage += std::min(fall(2 * t, i), fall(2 * t + 1, i));
+        for (Index t = 0; t < 4 && changes[i]; ++t) taken.by_damage += least_taken(fall(2 * t, i), fall(2 * t + 1, i));
       }
       return;
     }
@@ -162,7 +164,8 @@ class PlateMaterial {
       const auto before = stored_along(at, dt);
       model_.renew(at.cell, 1);
       const auto after = stored_along(at, dt);
-      for (Index t = 0; t < 4; ++t) taken.by_damage += std::min(before[t][0] - after[t][0], before[t][1] - after[t][1]);
+      for (Index t = 0; t < 4; ++t)
+        taken.by_damage += least_taken(before[t][0] - after[t][0], before[t][1] - after[t][1]);
     });
   }
 

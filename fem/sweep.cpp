@@ -11,8 +11,8 @@ namespace {
 // the stresses of A and B are common to opposite corners, and the force on the middle is what P and Q pull.
 template <bool with_body>
 DIPTYCH_WIDEST void cell_loop(const WholeCell& k, std::size_t cells, const double* __restrict ax,
-                            const double* __restrict ay, const double* __restrict dx, const double* __restrict dy,
-                            const NodeRow& middle, const KickAndDrift& factor, CornerForces& f, std::size_t first) {
+                              const double* __restrict ay, const double* __restrict dx, const double* __restrict dy,
+                              const NodeRow& middle, const KickAndDrift& factor, CornerForces& f, std::size_t first) {
   double* __restrict ux = middle.ux, * __restrict uy = middle.uy, * __restrict vx = middle.vx, * __restrict vy = middle.vy;
   const double* __restrict bx = middle.body_x, * __restrict by = middle.body_y;
   double* __restrict fax = f.lower_left[0] + first, * __restrict fay = f.lower_left[1] + first;
@@ -54,7 +54,7 @@ DIPTYCH_WIDEST void cell_loop(const WholeCell& k, std::size_t cells, const doubl
 
 template <bool with_body>
 DIPTYCH_WIDEST void node_loop(std::size_t first, std::size_t end, const CornerForces& f, const NodeRow& row,
-                            const KickAndDrift& factor, double* __restrict below_x, double* __restrict below_y) {
+                              const KickAndDrift& factor, double* __restrict below_x, double* __restrict below_y) {
   double* __restrict ux = row.ux, * __restrict uy = row.uy, * __restrict vx = row.vx, * __restrict vy = row.vy;
   const double* __restrict bx = row.body_x, * __restrict by = row.body_y;
   const double* __restrict ax = f.lower_left[0], * __restrict ay = f.lower_left[1];
@@ -80,7 +80,7 @@ DIPTYCH_WIDEST void node_loop(std::size_t first, std::size_t end, const CornerFo
 
 template <bool with_body, bool viscous>
 DIPTYCH_WIDEST void own_cell_loop(const StressRows& stress, const CellSize& h, std::size_t cells, const NodeRow& middle,
-                                const KickAndDrift& factor, CornerForces& f, std::size_t first) {
+                                  const KickAndDrift& factor, CornerForces& f, std::size_t first) {
   double* __restrict ux = middle.ux, * __restrict uy = middle.uy, * __restrict vx = middle.vx, * __restrict vy = middle.vy;
   const double* __restrict bx = middle.body_x, * __restrict by = middle.body_y;
   double* __restrict fax = f.lower_left[0] + first, * __restrict fay = f.lower_left[1] + first;

@@ -35,7 +35,7 @@ double area_under_circle(double r, double x0, double x1) {
 
 /// Eq. 25 of all cells.
 DIPTYCH_WIDEST void diffusivities(const Diffusion& diffusion, std::size_t cells, const double* __restrict strain,
-                                double* __restrict out) {
+                                  double* __restrict out) {
   const double mobility = diffusion.mobility, rupture = diffusion.rupture_strain, floor = diffusion.floor;
 #pragma GCC ivdep
   for (std::size_t cell = 0; cell < cells; ++cell) out[cell] = diffusivity(mobility, rupture, floor, strain[cell]);
@@ -44,8 +44,8 @@ DIPTYCH_WIDEST void diffusivities(const Diffusion& diffusion, std::size_t cells,
 /// Eq. 27 of a row of cells, from the nodes below and above: C_d rises, and where it heals it also falls.
 template <bool everywhere>
 DIPTYCH_WIDEST void densities(std::size_t cells, const double* __restrict low, const double* __restrict high,
-                            double crack_volume, double cap, bool heals, const unsigned char* __restrict critical,
-                            double* __restrict out) {
+                              double crack_volume, double cap, bool heals, const unsigned char* __restrict critical,
+                              double* __restrict out) {
 #pragma GCC ivdep
   for (std::size_t i = 0; i < cells; ++i) {
     const double mean = 0.25 * ((low[i] + high[i + 1]) + (low[i + 1] + high[i]));

@@ -24,7 +24,7 @@ struct FailureWave {
   /// part of the energy put in that a run may see given; the most that was seen is stated with the gates on it.
   static constexpr double gives_back = 0.25;
 
-  inline Stiffness whole() const;                      ///< in plane strain, whatever `elastic` says: no question in loops
+  inline Stiffness whole() const;  ///< in plane strain, whatever `elastic` says: no question in loops
   inline double pressure(const Tensor& strain) const;  ///< p_e
   /// W, the shear energy of the whole solid [J/m³]; dev ε has a zz component.
   inline double shear_energy(const Tensor& strain) const;

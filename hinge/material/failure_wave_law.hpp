@@ -50,7 +50,8 @@ namespace diptych::material {
   const double mean = elastic.bulk_modulus() * (3 * third - dilatancy);
   const Tensor failed{mean + kept * (strain.xx - third), mean + kept * (strain.yy - third), kept * strain.xy};
   const bool none = dilatancy == 0;
-  return {none ? elastic_stress.xx : failed.xx, none ? elastic_stress.yy : failed.yy, none ? elastic_stress.xy : failed.xy};
+  return {none ? elastic_stress.xx : failed.xx, none ? elastic_stress.yy : failed.yy,
+          none ? elastic_stress.xy : failed.xy};
 }
 
 [[gnu::always_inline]] inline double FailureWave::stored(const Tensor& strain, double dilatancy) const {
