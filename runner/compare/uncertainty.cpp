@@ -14,6 +14,7 @@
 namespace diptych::runner {
 namespace {
 
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double least_order = 0.05, largest_order = 10;
 
 // --- Sprague & Geers ---
@@ -165,10 +166,7 @@ SpragueGeers sprague_geers(const History& history, const History& reference) {
     g.push_back(history_value(reference, t));
   }
   const double size_f = norm(time, f), size_g = norm(time, g);
-  if (!(size_f > 0) || !(size_g > 0)) {
-    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-    return {unknown, unknown, unknown};
-  }
+  if (!(size_f > 0) || !(size_g > 0)) return {unknown, unknown, unknown};
   // The angle between f and g from the sides of their rhombus: arccos would lose half the digits of a small one.
   std::vector<double> sum, difference;
   for (std::size_t i = 0; i < time.size(); ++i) {
@@ -192,11 +190,10 @@ Uncertainty discretisation_uncertainty(const std::vector<double>& cell_size, con
   const double span = *largest - *least, shift = *least;
   const bool finite = std::all_of(value.begin(), value.end(), [](double v) { return std::isfinite(v); });
   if (!finite || !std::isfinite(span)) {
-    return {nan_value, nan_value, ErrorModel::power, false,
-            nan_value, nan_value, nan_value,         std::vector<double>(n, nan_value)};
+    return {unknown, unknown, ErrorModel::power, false, unknown, unknown, unknown, std::vector<double>(n, unknown)};
   }
   const double range = span / static_cast<double>(n - 1);
-  if (span == 0) return {value[0], nan_value, ErrorModel::power, false, 0, 0, 1.25, std::vector<double>(n, 0.0)};
+  if (span == 0) return {value[0], unknown, ErrorModel::power, false, 0, 0, 1.25, std::vector<double>(n, 0.0)};
 
   // In units of the least cell and the values' span, so that the fits are well scaled.
   Levels levels;
@@ -215,7 +212,7 @@ Uncertainty discretisation_uncertainty(const std::vector<double>& cell_size, con
   const bool good = chosen.deviation < scaled_range;
   Uncertainty result;
   result.extrapolated = shift + span * chosen.extrapolated;
-  result.order = p > least_order && p < largest_order ? p : nan_value;
+  result.order = p > least_order && p < largest_order ? p : unknown;
   result.model = chosen.model;
   result.weighted = chosen.weighted;
   result.deviation = span * chosen.deviation;

@@ -19,9 +19,9 @@ Plate waves(PlateSolid solid) {
 }
 
 /// Every cell is strained beyond the critical state and cracks on: the strain is not the same everywhere.
-Plate cracking(std::optional<diffusion::Diffusion> spreads) {
+Plate cracking(const std::optional<diffusion::Diffusion>& spreads) {
   solid::Cracking solid{{rock}};
-  solid.evolution.diffusion = std::move(spreads);
+  solid.evolution.diffusion = spreads;
   Plate plate = waves(solid);
   plate.initial_displacement = [](double x, double y) { return Vector{0.005 * x * (1 + 0.1 * y), 0.005 * y}; };
   for (const Side side : {Side::left, Side::bottom}) plate.edge(side).support = Edge::Support::roller;
