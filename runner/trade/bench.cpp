@@ -77,7 +77,7 @@ double seconds_of(const Subject& subject, long steps, Work& work, double& diffus
 }
 
 /// One round of one subject.
-void measure(Subject& subject, bool counts) {
+void time_round(Subject& subject, bool counts) {
   constexpr long few = 2, most = 2000;
   double passed = 0;
   Work work;
@@ -152,7 +152,7 @@ std::vector<reports::BenchRow> bench(const BenchPlan& plan, const std::atomic<bo
     for (Subject& subject : subjects) {
       if (cancelled && *cancelled) break;
       try {
-        if (subject.row.trouble.empty()) measure(subject, round > 0);
+        if (subject.row.trouble.empty()) time_round(subject, round > 0);
       } catch (const std::exception& problem) {
         subject.row.trouble = problem.what();
       }
