@@ -5,6 +5,15 @@
 namespace diptych::fem {
 namespace {
 
+/// Eq. 18 of one component at a node.
+template <bool with_body>
+[[gnu::always_inline]] inline void move(double force, const double* body, double* velocity, double* displacement,
+                                        std::size_t i, const KickAndDrift& factor) {
+  if constexpr (with_body) force += body[i];
+  velocity[i] += factor.kick * force;
+  displacement[i] += factor.drift * velocity[i];
+}
+
 // With e the corners' displacements relative to the middle, the sum of ∇u over the two triangles at a corner is
 // (A ∓ P, B ∓ P) at the corners a, c and (A ± Q, B ∓ Q) at b, d, where
 //   P = e_a + e_c, D = e_c − e_a, Q = e_b + e_d, E = e_b − e_d, A = D + E, B = D − E:
@@ -20,7 +29,8 @@ DIPTYCH_WIDEST void cell_loop(const WholeCell& k, std::size_t cells, const doubl
   double* __restrict fcx = f.upper_right[0] + first + 1, * __restrict fcy = f.upper_right[1] + first + 1;
   double* __restrict fdx = f.upper_left[0] + first, * __restrict fdy = f.upper_left[1] + first;
   const double xx = k.xx, yy = k.yy, shear_x = k.shear_x, shear_y = k.shear_y, cross = k.cross, shear = k.shear,
-               direct_x = k.direct_x, direct_y = k.direct_y, mixed = k.mixed, kick = factor.kick, drift = factor.drift;
+               direct_x = k.direct_x, direct_y = k.direct_y, mixed = k.mixed;
+  const KickAndDrift kick_and_drift = factor;
 #pragma GCC ivdep
   for (std::size_t i = 0; i < cells; ++i) {
     const double eax = ax[i] - ux[i], ebx = ax[i + 1] - ux[i], ecx = dx[i + 1] - ux[i], edx = dx[i] - ux[i];
@@ -40,15 +50,9 @@ DIPTYCH_WIDEST void cell_loop(const WholeCell& k, std::size_t cells, const doubl
     fby[i] = (s_yy - s_yx) - qy;
     fdx[i] = (s_xx - s_xy) - qx;
     fdy[i] = (s_yx - s_yy) - qy;
-    double fx = 2 * (px + qx), fy = 2 * (py + qy);
-    if constexpr (with_body) {
-      fx += bx[i];
-      fy += by[i];
-    }
-    vx[i] += kick * fx;
-    vy[i] += kick * fy;
-    ux[i] += drift * vx[i];
-    uy[i] += drift * vy[i];
+    const double fx = 2 * (px + qx), fy = 2 * (py + qy);
+    move<with_body>(fx, bx, vx, ux, i, kick_and_drift);
+    move<with_body>(fy, by, vy, uy, i, kick_and_drift);
   }
 }
 
@@ -61,20 +65,14 @@ DIPTYCH_WIDEST void node_loop(std::size_t first, std::size_t end, const CornerFo
   const double* __restrict rx = f.lower_right[0], * __restrict ry = f.lower_right[1];
   const double* __restrict cx = f.upper_right[0], * __restrict cy = f.upper_right[1];
   const double* __restrict dx = f.upper_left[0], * __restrict dy = f.upper_left[1];
-  const double kick = factor.kick, drift = factor.drift;
+  const KickAndDrift kick_and_drift = factor;
 #pragma GCC ivdep
   for (std::size_t i = first; i < end; ++i) {
-    double fx = below_x[i] + (ax[i] + rx[i]), fy = below_y[i] + (ay[i] + ry[i]);
-    if constexpr (with_body) {
-      fx += bx[i];
-      fy += by[i];
-    }
+    const double fx = below_x[i] + (ax[i] + rx[i]), fy = below_y[i] + (ay[i] + ry[i]);
     below_x[i] = dx[i] + cx[i];
     below_y[i] = dy[i] + cy[i];
-    vx[i] += kick * fx;
-    vy[i] += kick * fy;
-    ux[i] += drift * vx[i];
-    uy[i] += drift * vy[i];
+    move<with_body>(fx, bx, vx, ux, i, kick_and_drift);
+    move<with_body>(fy, by, vy, uy, i, kick_and_drift);
   }
 }
 
@@ -89,7 +87,7 @@ DIPTYCH_WIDEST void own_cell_loop(const StressRows& stress, const CellSize& h, s
   double* __restrict fdx = f.upper_left[0] + first, * __restrict fdy = f.upper_left[1] + first;
   const auto s = stress.triangle;
   const CellSize size = h;
-  const double kick = factor.kick, drift = factor.drift;
+  const KickAndDrift kick_and_drift = factor;
 #pragma GCC ivdep
   for (std::size_t i = 0; i < cells; ++i) {
     const CellValues force =
@@ -102,15 +100,9 @@ DIPTYCH_WIDEST void own_cell_loop(const StressRows& stress, const CellSize& h, s
     fcy[i] = force[2][1];
     fdx[i] = force[3][0];
     fdy[i] = force[3][1];
-    double fx = force[4][0], fy = force[4][1];
-    if constexpr (with_body) {
-      fx += bx[i];
-      fy += by[i];
-    }
-    vx[i] += kick * fx;
-    vy[i] += kick * fy;
-    ux[i] += drift * vx[i];
-    uy[i] += drift * vy[i];
+    const double fx = force[4][0], fy = force[4][1];
+    move<with_body>(fx, bx, vx, ux, i, kick_and_drift);
+    move<with_body>(fy, by, vy, uy, i, kick_and_drift);
   }
 }
 

@@ -59,9 +59,9 @@ class Cracking::Model {
     return stiffness(strain, cell).stress(strain);
   }
   double stored(const material::Tensor& strain, std::size_t cell, std::size_t p) const {
-    return standing(strain, cell, p).contract(strain) / 2;
+    return row(cell, p).stored(strain, 0);
   }
-  bool whole(std::size_t cell, std::size_t) const { return crack_density_[cell] == 0; }
+  bool whole(std::size_t cell, std::size_t p) const { return row(cell, p).whole(0); }
   bool has_potential() const { return law_.has_potential(); }
 
   auto driver() const {

@@ -43,10 +43,10 @@ class Failing::Model {
   material::Tensor standing(const material::Tensor& strain, std::size_t cell, std::size_t) const {
     return law_.stress(strain, dilatancy_.of_cells()[cell]);
   }
-  double stored(const material::Tensor& strain, std::size_t cell, std::size_t) const {
-    return law_.stored(strain, dilatancy_.of_cells()[cell]);
+  double stored(const material::Tensor& strain, std::size_t cell, std::size_t p) const {
+    return row(cell, p).stored(strain, 0);
   }
-  bool whole(std::size_t cell, std::size_t) const { return dilatancy_.of_cells()[cell] == 0; }
+  bool whole(std::size_t cell, std::size_t p) const { return row(cell, p).whole(0); }
   bool has_potential() const { return false; }
 
   auto driver() const {

@@ -17,16 +17,6 @@
 namespace diptych::runner {
 namespace {
 
-/// Those that are asked for, each one of the known.
-Names known_ones(const char* option, const Names& asked, const Names& known) {
-  for (const std::string& one : asked) {
-    if (!contains(known, one))
-      throw InputError(
-          fmt::format("{}: found {}; allowed: {}{}", option, words(one), joined(known), hint_of(one, known)));
-  }
-  return asked;
-}
-
 Names usual_methods() {
   Names all;
   for (const std::string& id : panels_for(SceneKind::plate)) {
@@ -37,12 +27,20 @@ Names usual_methods() {
 
 }  // namespace
 
+std::string bench_footer() {
+  std::string out = "Example: diptych bench damage diffusion --points 1e5 --threads 1\n";
+  for (const BenchScene& scene : bench_scenes()) out += fmt::format("\n  {:<10} {}", scene.id, scene.says);
+  return out;
+}
+
 int bench_command(const Options& options, const std::atomic<bool>& cancelled) {
   Names scenes;
   for (const BenchScene& scene : bench_scenes()) scenes.push_back(scene.id);
   BenchPlan plan{scenes, usual_methods(), options.points, options.counts, options.rounds};
-  if (!options.selectors.empty()) plan.scenes = known_ones("bench", options.selectors, scenes);
-  if (!options.methods.empty()) plan.methods = known_ones("--method", options.methods, panels_for(SceneKind::plate));
+  if (!options.selectors.empty()) plan.scenes = options.selectors;
+  if (!options.methods.empty()) plan.methods = options.methods;
+  for (const std::string& scene : plan.scenes) require_one_of("bench", scene, scenes);
+  for (const std::string& method : plan.methods) require_one_of("--method", method, panels_for(SceneKind::plate));
   if (plan.threads.empty()) {
     const int all = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     plan.threads = {1};

@@ -27,7 +27,7 @@ struct Options {
   std::string quantity;           ///< trade, pick: "stress.L2"; empty: the first
   std::optional<double> time;     ///< trade, pick: the sample time; none: the last
   std::string by;                 ///< trade, pick: what is paid in; empty: seconds where runs are timed, else updates
-  int rounds = 5;                 ///< trade, pick: in which runs are timed
+  int rounds = 5;                 ///< trade, pick, bench: in which runs are timed
   std::string error;              ///< pick: at most, "1%"
   std::optional<double> seconds;  ///< pick: at most
   std::string memory;             ///< pick: at most, "1G"
@@ -44,6 +44,7 @@ int explain_command(const Options&, const std::atomic<bool>& cancelled);
 int trade_command(const Options&, const std::atomic<bool>& cancelled);
 int pick_command(const Options&, const std::atomic<bool>& cancelled);
 int bench_command(const Options&, const std::atomic<bool>& cancelled);
+std::string bench_footer();  ///< of its help: an example, and the scenes that there are
 int list_command(const Options&);
 int show_command(const Options&);
 int paper_command(const Options&, const std::atomic<bool>& cancelled);

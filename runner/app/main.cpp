@@ -114,8 +114,11 @@ int main(int argc, char** argv) {
   pick->callback([&] { status = pick_command(options, cancelled); });
 
   auto* bench = app.add_subcommand("bench", "how quick the solvers' loops are, beside what the memory gives");
-  bench->add_option("SCENE", options.selectors, "elastic, damage, diffusion, failure, crossing, bar; all without one");
-  bench->add_option("--method", options.methods, "fem and mpm-musl without it")->delimiter(',');
+  bench->add_option("SCENE", options.selectors, "of those below; all without one");
+  bench
+      ->add_option("--method", options.methods,
+                   "ids of methods, as cases have them; the usual one of each family without it")
+      ->delimiter(',');
   bench->add_option("--points", options.points, "about so many elements or particles: 1e4,1e5,1e6")
       ->delimiter(',')
       ->check(CLI::Range(10.0, 1e8))
@@ -127,7 +130,7 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   bench->add_option("--json", options.json, "also write what was measured to this file (JSON lines)");
-  bench->footer("Example: diptych bench damage diffusion --points 1e5 --threads 1");
+  bench->footer(diptych::runner::bench_footer);
   bench->callback([&] { status = bench_command(options, cancelled); });
 
   auto* gate = app.add_subcommand("gate", "run and judge; 0 only if every declared gate was judged and passed");

@@ -35,9 +35,7 @@ Case case_of_trade(const Options& options) {
 reports::Cost cost_asked(const Options& options) {
   if (options.by.empty()) return options.rounds > 0 ? reports::Cost::seconds : reports::Cost::work;
   const Names known{"seconds", "updates", "bytes"};
-  if (!contains(known, options.by))
-    throw InputError(
-        fmt::format("--by: found {}; allowed: {}{}", words(options.by), joined(known), hint_of(options.by, known)));
+  require_one_of("--by", options.by, known);
   if (options.by == "seconds" && options.rounds == 0)
     throw InputError("--by seconds: found with --rounds 0; allowed: with rounds to time the runs in");
   return options.by == "seconds" ? reports::Cost::seconds
@@ -62,9 +60,7 @@ std::string scene_of(const Options& options, const reports::Trade& trade) {
                  words(scenes.front()), joined(scenes));
     return scenes.front();
   }
-  if (!contains(scenes, options.scene))
-    throw InputError(fmt::format("--scene: found {}; allowed: {}{}", words(options.scene), joined(scenes),
-                                 hint_of(options.scene, scenes)));
+  require_one_of("--scene", options.scene, scenes);
   return options.scene;
 }
 
@@ -81,9 +77,7 @@ reports::Aim aim_of(const Options& options, const reports::Trade& trade) {
     if (!contains(quantities, aim.quantity)) quantities.push_back(aim.quantity);
   const std::string preferred = contains(quantities, std::string("stress.L2")) ? "stress.L2" : quantities.front();
   const std::string quantity = options.quantity.empty() ? preferred : options.quantity;
-  if (!contains(quantities, quantity))
-    throw InputError(fmt::format("--quantity: found {}; allowed: {}{}", words(quantity), joined(quantities),
-                                 hint_of(quantity, quantities)));
+  require_one_of("--quantity", quantity, quantities);
   std::vector<double> times;
   for (const reports::Aim& aim : aims)
     if (aim.quantity == quantity) times.push_back(aim.time);

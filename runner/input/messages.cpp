@@ -90,4 +90,10 @@ std::string hint_of(const std::string& word, const Names& allowed) {
   return hint.empty() ? "" : "; " + hint;
 }
 
+void require_one_of(const std::string& option, const std::string& found, const Names& allowed) {
+  if (!contains(allowed, found))
+    throw InputError(
+        fmt::format("{}: found {}; allowed: {}{}", option, words(found), joined(allowed), hint_of(found, allowed)));
+}
+
 }  // namespace diptych::runner

@@ -46,5 +46,7 @@ std::string nearest(const std::string& word, const Names& allowed);
 std::string suggestion(const std::string& word, const Names& allowed);
 /// The same after a semicolon, where a sentence goes on with it.
 std::string hint_of(const std::string& word, const Names& allowed);
+/// Throws InputError where what an option of the command line was given is none of these.
+void require_one_of(const std::string& option, const std::string& found, const Names& allowed);
 
 }  // namespace diptych::runner

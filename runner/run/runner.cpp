@@ -44,8 +44,8 @@ struct Task {
 
 int threads_within(int threads, std::size_t runs, int unknowns) {
   constexpr int worth = 10'000;  // unknowns of a thread: with fewer the others wait for each other as long as they work
-  const int spare = runs == 0 ? 1 : threads / static_cast<int>(std::min<std::size_t>(runs, 1'000'000));
-  return std::clamp(unknowns / worth, 1, std::max(1, spare));
+  const std::size_t spare = static_cast<std::size_t>(threads) / std::max<std::size_t>(runs, 1);
+  return std::clamp(unknowns / worth, 1, std::max(1, static_cast<int>(spare)));
 }
 
 std::vector<reports::Case> run_cases(const std::vector<Case>& cases, const Running& running) {

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "hinge/step/threads.hpp"
+#include "runner/input/messages.hpp"
 #include "runner/panel.hpp"
 #include "runner/trade/bench_scenes.hpp"
 #include "runner/trade/timing.hpp"
@@ -24,6 +25,20 @@ struct Subject {
   std::vector<double> seconds, bandwidths;
 };
 
+/// The run of a scene for so many steps, by its solver.
+template <class S, class M, class R>
+auto runs(const Solver<S, M, R>& solver, const S& scene, const M& mesh, const Stepping& stepping) {
+  return [&solver, scene, mesh, stepping](long steps, double& diffusion) {
+    Stepping with = stepping;
+    with.steps = steps;
+    const R record = solver.run(scene, mesh, with);
+    if (record.outcome != Outcome::completed) throw std::runtime_error(record.message);
+    if constexpr (requires { record.diffusion_updates; })
+      diffusion = static_cast<double>(record.diffusion_updates) / static_cast<double>(record.steps);
+    return record.work;
+  };
+}
+
 Subject of_plate(const BenchScene& scene, const Panel& row, double points, int threads) {
   Subject subject;
   const int n = std::max(2, static_cast<int>(std::lround(std::sqrt(points / 6))));  // four points a cell, n × 1.5 n
@@ -37,14 +52,7 @@ Subject of_plate(const BenchScene& scene, const Panel& row, double points, int t
   subject.row.points = 4 * mesh.grid.cells();
   subject.row.cells_x = cells.x;
   subject.row.cells_y = cells.y;
-  subject.run = [=, &row](long steps, double& diffusion) {
-    Stepping with = stepping;
-    with.steps = steps;
-    const PlateRecord record = row.plate.run(plate, mesh, with);
-    if (record.outcome != Outcome::completed) throw std::runtime_error(record.message);
-    diffusion = static_cast<double>(record.diffusion_updates) / static_cast<double>(std::max(1L, record.steps));
-    return record.work;
-  };
+  subject.run = runs(row.plate, plate, mesh, stepping);
   return subject;
 }
 
@@ -59,14 +67,7 @@ Subject of_bars(const BenchScene& scene, const Panel& row, double points) {
   subject.row.points = static_cast<std::size_t>(row.particles ? 2 * cells : cells);
   subject.row.cells_x = cells;
   subject.row.cells_y = 1;
-  subject.run = [=, &row](long steps, double& diffusion) {
-    Stepping with = stepping;
-    with.steps = steps;
-    const Record record = row.bars.run(bars, mesh, with);
-    if (record.outcome != Outcome::completed) throw std::runtime_error(record.message);
-    diffusion = 0;
-    return record.work;
-  };
+  subject.run = runs(row.bars, bars, mesh, stepping);
   return subject;
 }
 
@@ -76,29 +77,7 @@ double seconds_of(const Subject& subject, long steps, Work& work, double& diffus
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-/// One round of one subject.
-void time_round(Subject& subject, bool counts) {
-  constexpr long few = 2, most = 2000;
-  double passed = 0;
-  Work work;
-  for (long steps = 0; passed < least;) {
-    double none = 0;
-    const double start_up = seconds_of(subject, few, work, none);
-    const double stepping = seconds_of(subject, few + subject.more, work, subject.row.diffusion) - start_up;
-    if (!counts && stepping < std::min(least, 2 * start_up) && subject.more < most) {
-      subject.more *= 2;  // what is looked for drowns in what every run takes
-      continue;
-    }
-    passed += stepping;
-    steps += subject.more;
-    if (passed >= least && counts) subject.seconds.push_back(passed / static_cast<double>(steps));
-  }
-  subject.row.bytes = static_cast<double>(work.bytes);
-  if (counts) subject.bandwidths.push_back(bandwidth(subject.row.bytes, subject.row.threads));
-}
-
-}  // namespace
-
+/// Bytes a second, read and written, of a sweep in place over so many bytes with so many threads.
 double bandwidth(double bytes, int threads) {
   const auto count = std::max<std::size_t>(1024, static_cast<std::size_t>(bytes / sizeof(double)));
   const Threads pool(threads);
@@ -125,11 +104,34 @@ double bandwidth(double bytes, int threads) {
   return 2 * sizeof(double) * static_cast<double>(count) * static_cast<double>(sweeps) / spent;
 }
 
+/// One round of one subject.
+void time_round(Subject& subject, bool counts) {
+  constexpr long few = 2, most = 2000;
+  double passed = 0;
+  Work work;
+  for (long steps = 0; passed < least;) {
+    double none = 0;
+    const double start_up = seconds_of(subject, few, work, none);
+    const double stepping = seconds_of(subject, few + subject.more, work, subject.row.diffusion) - start_up;
+    if (!counts && stepping < std::min(least, 2 * start_up) && subject.more < most) {
+      subject.more *= 2;  // what is looked for drowns in what every run takes
+      continue;
+    }
+    passed += stepping;
+    steps += subject.more;
+    if (passed >= least && counts) subject.seconds.push_back(passed / static_cast<double>(steps));
+  }
+  subject.row.bytes = static_cast<double>(work.bytes);
+  if (counts) subject.bandwidths.push_back(bandwidth(subject.row.bytes, subject.row.threads));
+}
+
+}  // namespace
+
 std::vector<reports::BenchRow> bench(const BenchPlan& plan, const std::atomic<bool>* cancelled,
                                      const std::function<void(std::size_t, std::size_t)>& progress) {
   std::vector<Subject> subjects;
   for (const BenchScene& scene : bench_scenes()) {
-    if (std::find(plan.scenes.begin(), plan.scenes.end(), scene.id) == plan.scenes.end()) continue;
+    if (!contains(plan.scenes, scene.id)) continue;
     for (const std::string& method : plan.methods) {
       const Panel& row = panel(method);
       for (const double points : plan.points) {

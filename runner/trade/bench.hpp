@@ -23,7 +23,4 @@ struct BenchPlan {
 std::vector<reports::BenchRow> bench(const BenchPlan&, const std::atomic<bool>* cancelled,
                                      const std::function<void(std::size_t done, std::size_t total)>& progress);
 
-/// Bytes a second, read and written, of a sweep in place over so many bytes with so many threads.
-double bandwidth(double bytes, int threads);
-
 }  // namespace diptych::runner

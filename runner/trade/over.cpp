@@ -80,19 +80,14 @@ void add_one(Case& c, const std::string& text) {
   const std::string values = equals == std::string::npos ? "" : text.substr(equals + 1);
   Names keys{"cells", "courant", "method", "particles"};
   for (const auto& [name, value] : c.parameters) keys.push_back(name);
-  if (!contains(keys, key)) {
-    throw InputError(fmt::format("--over: found {}; allowed: {}{}", words(key), joined(keys), hint_of(key, keys)));
-  }
+  require_one_of("--over", key, keys);
   if (values.empty()) throw InputError(fmt::format("--over {0}: without values; allowed: {0}=VALUES", key));
   const auto each = [&](auto&& act) {
     for (Axes& block : c.axes) act(block);
   };
   if (key == "method") {
     const Names known = methods_of(c), given = parts_of(values, ',');
-    for (const std::string& method : given)
-      if (!contains(known, method))
-        throw InputError(fmt::format("--over method: found {}; allowed: {}{}", words(method), joined(known),
-                                     hint_of(method, known)));
+    for (const std::string& method : given) require_one_of("--over method", method, known);
     each([&](Axes& block) { add_to(block.method, given); });
   } else if (key == "cells") {
     const std::vector<int> given = whole_numbers_in(key, values, true);
