@@ -32,7 +32,8 @@ only runner/compare 'hinge|analytic|reports|runner/(input|compare|panel)'
 only runner/run 'hinge|analytic|reports|runner/(input|compare|run|panel|diffusion_alone)'
 only runner/judge 'hinge|analytic|reports|runner/(input|compare|run|judge|panel|registry)'
 only runner/draw 'hinge|analytic|reports|runner/(input|compare|draw|panel|registry)'
-only runner/trade 'hinge|analytic|reports|runner/(input|compare|run|draw|trade|panel)'
+# A case is read anew with a key of its file changed.
+only runner/trade 'hinge|analytic|reports|runner/(input|compare|run|draw|trade|panel|app/case_file)'
 only runner/app 'hinge|analytic|reports|runner'
 echo "$looked files"
 exit "$broken"

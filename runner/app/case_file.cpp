@@ -4,6 +4,7 @@
 
 #include <cerrno>
 #include <fstream>
+#include <functional>
 #include <sstream>
 #include <system_error>
 
@@ -29,7 +30,7 @@ void read_judgement(Table& file, Case& c) {
   check_gates(file.place("gate"), c);
 }
 
-Case read_file(Table& file) {
+Case read_file(Table& file, const std::function<void(Table&, Case&)>& judgement) {
   Case c;
   file.need("schema", whole(1, 1));
   c.scene = file.declaration({"schema", "id", "title", "claim", "why", "paper", "gate", "figure"});
@@ -44,22 +45,22 @@ Case read_file(Table& file) {
     read_plate_case(file, c);
   else
     read_bar_case(file, c);
-  read_judgement(file, c);
+  judgement(file, c);
   return c;
 }
 
-}  // namespace
-
-Case parse_case(const std::string& text, const std::filesystem::path& name) {
+Case parsed(const std::string& text, const std::filesystem::path& name,
+            const std::function<void(Table&, Case&)>& judgement, const std::vector<Change>& changes) {
   if (text.find_first_not_of(" \t\r\n") == std::string::npos)
     throw InputError(name.string() + ":1:1: found an empty file; allowed: a case, see cases/README.md");
   Case c;
-  read_toml(text, name.string(), [&](Table& file) { c = read_file(file); });
+  read_toml(
+      text, name.string(), [&](Table& file) { c = read_file(file, judgement); }, changes);
   c.path = name;
   return c;
 }
 
-Case read_case(const std::filesystem::path& path) {
+std::string text_of(const std::filesystem::path& path) {
   const auto fail = [&](const std::string& reason) { throw InputError(path.string() + ": cannot be read: " + reason); };
   std::error_code status;
   if (std::filesystem::is_directory(path, status)) fail("it is a directory; allowed: a case file (*.toml)");
@@ -69,7 +70,44 @@ Case read_case(const std::filesystem::path& path) {
   std::ostringstream text;
   text << in.rdbuf();
   if (in.bad()) fail(std::generic_category().message(errno));
-  return parse_case(text.str(), path);
+  return text.str();
+}
+
+/// "material.nu=0.4999 without viscosity"
+std::string label_of(const std::vector<Change>& changes) {
+  Names labels;
+  for (const auto& [key, value] : changes) {
+    if (!value) {
+      labels.push_back("without " + key);
+      continue;
+    }
+    const auto* text = value->as<std::string>();
+    const auto number = value->number();
+    labels.push_back(key + '=' + (text ? *text : number ? words(*number) : words(*value)));
+  }
+  return listed(labels, " ");
+}
+
+}  // namespace
+
+Case parse_case(const std::string& text, const std::filesystem::path& name) {
+  return parsed(text, name, read_judgement, {});
+}
+
+Case read_case(const std::filesystem::path& path) { return parse_case(text_of(path), path); }
+
+Case changed_case(const std::string& text, const std::filesystem::path& name, const std::vector<Change>& changes) {
+  const auto unjudged = [](Table& file, Case&) {
+    for (const char* judged : {"run", "gate", "figure"}) file.has(judged);  // known, and not read
+  };
+  Case c = parsed(text, name, unjudged, changes);
+  c.changed = label_of(changes);
+  c.allow_unstable = true;
+  return c;
+}
+
+Case changed_case(const std::filesystem::path& path, const std::vector<Change>& changes) {
+  return changed_case(text_of(path), path, changes);
 }
 
 }  // namespace diptych::runner

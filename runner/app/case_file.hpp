@@ -6,6 +6,7 @@
 
 #include "runner/input/case.hpp"
 #include "runner/input/messages.hpp"
+#include "runner/input/toml_table.hpp"
 
 namespace diptych::runner {
 
@@ -13,5 +14,11 @@ namespace diptych::runner {
 Case read_case(const std::filesystem::path&);
 /// The same from text; `name` stands for the file in messages.
 Case parse_case(const std::string& text, const std::filesystem::path& name);
+
+/// The scene of a case file with some keys changed: its runs, without gates and figures, which may not fit it. Its runs
+/// are labelled by what was changed; a run above the limit of its time step is made.
+/// Throws InputError where a key is not one of the file and none is to be added, and where the scene is not one.
+Case changed_case(const std::filesystem::path&, const std::vector<Change>&);
+Case changed_case(const std::string& text, const std::filesystem::path& name, const std::vector<Change>&);
 
 }  // namespace diptych::runner

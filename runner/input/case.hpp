@@ -146,6 +146,7 @@ struct Case {
   ~Case();
 
   std::filesystem::path path;
+  std::string changed;  ///< what was changed of its file, "material.nu=0.4999"; empty: nothing
   std::string id, title, claim, why;
   std::vector<std::string> paper_figures;               ///< "1", "3a"
   std::string units;                                    ///< "SI" or "paper"

@@ -85,6 +85,74 @@ void declare(const std::string& path, const Node& node, Declaration& into) {
   }
 }
 
+/// The entry of a list of tables that a key means by its id, or by its number from 0.
+Node* entry_called(Node::List& list, const std::string& name) {
+  for (std::size_t i = 0; i < list.size(); ++i)
+    if (name == id_of(list[i]) || (id_of(list[i]).empty() && name == std::to_string(i))) return &list[i];
+  return nullptr;
+}
+
+/// The part of a key up to the next dot outside of brackets, taken off it.
+std::string first_part(std::string& key) {
+  const std::size_t bracket = key.find('['), dot = key.find('.');
+  std::size_t end = dot;
+  if (bracket < dot) end = key.find('.', std::min(key.find(']', bracket), key.size()));
+  const std::string part = key.substr(0, end);
+  key = end == key.npos ? "" : key.substr(end + 1);
+  return part;
+}
+
+void apply(const Change& change, Node& root) {
+  Node* at = &root;
+  std::string rest = change.key, gone;
+  const auto refuse = [&](const std::string& part, const Names& known) {
+    const std::string near = suggestion(part, known);
+    throw InputError(fmt::format("{}: there is no {}{}; allowed: {}{}{}", change.key, gone.empty() ? "" : gone + '.',
+                                 part, listed(known), near.empty() ? "" : "; ", near));
+  };
+  while (!rest.empty()) {
+    const std::string part = first_part(rest);
+    const std::size_t bracket = part.find('[');
+    const std::string name = part.substr(0, bracket);
+    if (at->value.index() == 0) at->value.emplace<Node::Entries>();  // a table that is not there yet
+    auto* entries = std::get_if<Node::Entries>(&at->value);
+    if (!entries) refuse(part, {});
+    const auto entry =
+        std::find_if(entries->begin(), entries->end(), [&](const Node::Entry& one) { return one.key == name; });
+    if (entry == entries->end()) {
+      Names known;
+      for (const Node::Entry& one : *entries) known.push_back(one.key);
+      if (!change.value || bracket != part.npos) refuse(name, known);
+      const auto place =
+          std::find_if(entries->begin(), entries->end(), [&](const auto& one) { return one.key > name; });
+      at = &entries->insert(place, {name, {}, {}})->value;
+    } else if (!change.value && rest.empty() && bracket == part.npos) {
+      entries->erase(entry);
+      return;
+    } else {
+      at = &entry->value;
+    }
+    if (bracket != part.npos) {
+      auto* list = std::get_if<Node::List>(&at->value);
+      Node* one = list ? entry_called(*list, part.substr(bracket + 1, part.size() - bracket - 2)) : nullptr;
+      if (!one) {
+        Names known;
+        for (std::size_t i = 0; list && i < list->size(); ++i)
+          known.push_back(
+              fmt::format("{}[{}]", name, id_of((*list)[i]).empty() ? std::to_string(i) : id_of((*list)[i])));
+        refuse(part, known);
+      }
+      if (!change.value && rest.empty()) {
+        list->erase(list->begin() + (one - list->data()));
+        return;
+      }
+      at = one;
+    }
+    gone += (gone.empty() ? "" : ".") + part;
+  }
+  if (change.value) *at = *change.value;
+}
+
 Rule<double> finite(const std::string& range, bool (*within)(double), const std::string& hint = "") {
   const std::string allowed = "a finite number" + range;
   return {[=](const Place& place) -> std::optional<double> {
@@ -124,6 +192,19 @@ std::string words(const Node& node) {
   }
   if (const auto* list = node.as<Node::List>()) return list->empty() ? "an empty list" : "a list";
   return node.as<Node::Entries>() ? "a table" : "a date or time";
+}
+
+Node value_in(const std::string& text) {
+  try {
+    const toml::table parsed = toml::parse("value = " + text);
+    if (parsed.size() == 1) {
+      Node value = copied(*parsed.get("value"));
+      value.at = {};
+      return value;
+    }
+  } catch (const toml::parse_error&) {  // a text without quotes
+  }
+  return {{}, text};
 }
 
 void Place::say(const std::string& message) const { mistakes->push_back({at, label + ": " + message}); }
@@ -293,10 +374,12 @@ void Table::refuse_other_keys() const {
   }
 }
 
-void read_toml(const std::string& toml, const std::string& name, const Table::Read& read) {
+void read_toml(const std::string& toml, const std::string& name, const Table::Read& read,
+               const std::vector<Change>& changes) {
   std::vector<Mistake> mistakes;
   try {
-    const Node root = copied(toml::parse(toml));
+    Node root = copied(toml::parse(toml));
+    for (const Change& change : changes) apply(change, root);
     Table table({&mistakes, &root, {1, 1}, "file"}, "");
     read(table);
     table.refuse_other_keys();

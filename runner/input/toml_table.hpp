@@ -53,6 +53,15 @@ struct Node::Entry {
 
 /// A value as found in the file.
 std::string words(const Node&);
+/// A value as it would be read from a file, where quotes around a text may be left out: 0.3, 5, true, rkl2.
+Node value_in(const std::string& text);
+
+/// A key of a file, as list --declarations writes it, with the value that it is to have instead of what it has; without
+/// a value the key is taken out.
+struct Change {
+  std::string key;  ///< "material.nu", "load[0].traction", "sample.probes[tip].at"
+  std::optional<Node> value;
+};
 
 /// Where a value stands in the file, and what it is called there.
 struct Place {
@@ -185,8 +194,9 @@ class Table {
   std::set<std::string> known_;
 };
 
-/// Reads the top table of a file, called `name` in messages. Throws InputError listing every mistake in the order of
-/// the file, one a line.
-void read_toml(const std::string& toml, const std::string& name, const Table::Read&);
+/// Reads the top table of a file, called `name` in messages, after some changes. Throws InputError listing every
+/// mistake in the order of the file, one a line.
+void read_toml(const std::string& toml, const std::string& name, const Table::Read&,
+               const std::vector<Change>& changes = {});
 
 }  // namespace diptych::runner

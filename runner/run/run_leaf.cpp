@@ -140,6 +140,7 @@ reports::Run describe(const Case& c, const Leaf& leaf) {
   run.courant_asked = leaf.courant;
   run.particles = particles_label(leaf.particles);
   run.parameters = parameters_label(leaf);
+  if (!c.changed.empty()) run.parameters = c.changed + (run.parameters.empty() ? "" : " ") + run.parameters;
   run.status = "cancelled";
   switch (kind_of(c)) {
     case SceneKind::bars: describe_bars(c, leaf, run); break;

@@ -8,6 +8,7 @@
 #include <optional>
 #include <sstream>
 
+#include "runner/app/case_file.hpp"
 #include "runner/input/case_tables.hpp"
 #include "runner/input/messages.hpp"
 
@@ -117,6 +118,39 @@ void add_one(Case& c, const std::string& text) {
 }
 
 }  // namespace
+
+std::vector<Case> with_values(const Case& c, const std::vector<std::string>& over) {
+  std::vector<std::vector<Change>> combinations{{}};
+  std::vector<std::string> of_axes;
+  for (const std::string& text : over) {
+    const std::string key = text.substr(0, text.find('='));
+    if (key.find_first_of(".[") == std::string::npos) {
+      of_axes.push_back(text);
+      continue;
+    }
+    const std::string values = text.size() > key.size() ? text.substr(key.size() + 1) : "";
+    if (values.empty()) throw InputError(fmt::format("--over {0}: without values; allowed: {0}=VALUES", key));
+    std::vector<std::string> given = parts_of(values, ',');
+    if (values.find(':') != std::string::npos) {
+      given.clear();
+      for (const double value : numbers_in(key, values, false)) given.push_back(fmt::format("{}", value));
+    }
+    std::vector<std::vector<Change>> more;
+    for (const std::vector<Change>& changes : combinations) {
+      for (const std::string& value : given) {
+        more.push_back(changes);
+        more.back().push_back({key, value_in(value)});
+      }
+    }
+    combinations = std::move(more);
+  }
+  std::vector<Case> cases;
+  for (const std::vector<Change>& changes : combinations) {
+    cases.push_back(changes.empty() ? c : changed_case(c.path, changes));
+    add_values(cases.back(), of_axes);
+  }
+  return cases;
+}
 
 void add_values(Case& c, const std::vector<std::string>& over) {
   for (const std::string& text : over) add_one(c, text);

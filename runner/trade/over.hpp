@@ -14,4 +14,9 @@ namespace diptych::runner {
 /// InputError where a key or a value is not one, with what is allowed and the nearest.
 void add_values(Case&, const std::vector<std::string>& over);
 
+/// The same, where a key may also be one of the case's file, as list --declarations writes it: "material.nu=0.3,0.49",
+/// "diffusion.scheme=rkl2,implicit". Such a key makes a case of each value, which reads its file anew; several make one
+/// of each combination. Without any it is the case itself with its gates.
+std::vector<Case> with_values(const Case&, const std::vector<std::string>& over);
+
 }  // namespace diptych::runner

@@ -9,11 +9,13 @@
 #include "reports/trade_table.hpp"
 #include "runner/app/case_file.hpp"
 #include "runner/input/leaf.hpp"
+#include "runner/run/run_leaf.hpp"
 #include "runner/trade/over.hpp"
 #include "runner/trade/pick.hpp"
 #include "runner/trade/timing.hpp"
 #include "runner/trade/work_precision.hpp"
 #include "tests/case_text.hpp"
+#include "tests/folder.hpp"
 #include "tests/made_runs.hpp"
 #include "tests/messages.hpp"
 #include "tests/text.hpp"
@@ -109,6 +111,31 @@ BOOST_AUTO_TEST_CASE(a_wrong_value_is_told_with_what_is_allowed) {
   refused("cells=0", {"--over cells", "whole"});
   refused("particles=99", {"--over particles", "1 to 16"});
   refused("method=mpm-mussl", {"--over method", "mpm-musl", "did you mean"});
+}
+
+BOOST_AUTO_TEST_CASE(keys_of_the_file_are_changed) {
+  const Folder folder;
+  const auto file = folder.path / "t.toml";
+  std::ofstream(file) << text;
+  const auto over = [&](const std::vector<std::string>& values) { return with_values(read_case(file), values); };
+  const auto cases = over({"material.E=1e4,4e4", "cells=40"});
+  BOOST_TEST_REQUIRE(cases.size() == 2U);
+  BOOST_TEST(cases[0].changed == "material.E=10000");
+  BOOST_TEST(cases[1].changed == "material.E=40000");
+  BOOST_TEST(std::get<material::Elastic>(cases[1].first().material).youngs_modulus == 4e4);
+  BOOST_TEST(leaves(cases[1]).size() == 6U);
+  BOOST_TEST((cases[0].gates.empty() && cases[0].allow_unstable));
+  const auto run = describe(cases[1], leaves(cases[1]).front());
+  BOOST_TEST(run.parameters == "material.E=40000");
+  BOOST_TEST(over({"material.E=1e4:3e4:3", "load[0].traction=-1,-2"}).size() == 6U);
+  BOOST_TEST(!over({}).front().gates.empty());
+  const auto refuses = [&](const std::string& values, const std::vector<std::string>& wanted) {
+    expect_in(message_of([&] { over({values}); }), wanted);
+  };
+  refuses("material.e=1", {"material.e", "unknown key", "\"E\""});
+  refuses("material.E=-1", {"material.E", "found -1", "> 0"});
+  refuses("load[1].traction=1", {"load[1]", "load[0]"});
+  refuses("material.E=", {"--over material.E", "without values"});
 }
 
 BOOST_AUTO_TEST_CASE(work_is_counted_by_hand) {
