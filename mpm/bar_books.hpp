@@ -44,7 +44,7 @@ class BarBooks {
     const double external = grid_.work_rate();
     ledger.after_kick(external, kick);
     double power = -external;
-    for (const Node& node : grid_.node) power += node.force * node.velocity;
+    for (const Node& node : grid_.reached()) power += node.force * node.velocity;
     half_work_of_kick_ = kick * power / 2;
   }
 
@@ -70,7 +70,7 @@ class BarBooks {
   void account_for_lumping(double kick, Ledger& ledger) {
     if (!ledger.due()) return;
     double grid = 0, particles = 0;
-    for (const Node& node : grid_.node) grid += node.mass * node.acceleration * node.acceleration;
+    for (const Node& node : grid_.reached()) grid += node.mass * node.acceleration * node.acceleration;
     const std::vector<double>& offset = particles_.offset;
     particles_.for_each(grid_.node, [&](std::size_t p, const Node& left, const Node& right) {
       const double a = (0.5 - offset[p]) * left.acceleration + (0.5 + offset[p]) * right.acceleration;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "hinge/scene/scene.hpp"
@@ -28,13 +29,26 @@ struct NodalForce {
 struct Grid {
   explicit Grid(const Scene& bars) : scene(bars) {}
 
+  /// Particles reach nodes first to last from now on: those that they have left know of nothing any more.
+  void reach(std::size_t first, std::size_t last) {
+    for (std::size_t i = first_; i < node.size() && i <= last_; ++i) {
+      if (i >= first && i <= last) continue;
+      node[i] = {};
+      if (!body_force.empty()) body_force[i] = 0;
+    }
+    first_ = first;
+    last_ = last;
+  }
+  std::span<Node> reached() { return std::span(node).subspan(first_, last_ - first_ + 1); }
+  std::span<const Node> reached() const { return std::span(node).subspan(first_, last_ - first_ + 1); }
+
   void hold_supports() {
     if (scene.left == Support::fixed) node.front().velocity = node.front().acceleration = 0;
     if (scene.right == Support::fixed) node.back().velocity = node.back().acceleration = 0;
   }
 
   void integrate_momentum(double kick) {  // eq. 18
-    for (Node& at : node) {
+    for (Node& at : reached()) {
       at.acceleration = at.mass > 0 ? at.force / at.mass : 0;
       at.velocity += kick * at.acceleration;
     }
@@ -66,7 +80,7 @@ struct Grid {
   /// Of all forces, internal ones too [W].
   double power() const {
     double sum = 0;
-    for (const Node& at : node) sum += at.force * at.velocity;
+    for (const Node& at : reached()) sum += at.force * at.velocity;
     return sum;
   }
 
@@ -74,6 +88,9 @@ struct Grid {
   std::vector<Node> node;
   std::vector<NodalForce> traction;  ///< of the current step
   std::vector<double> body_force;    ///< per node, only with a body force
+
+ private:
+  std::size_t first_ = 0, last_ = 0;  // nodes that particles reach
 };
 
 }  // namespace diptych::mpm::bars

@@ -92,6 +92,10 @@ class Particles {
     if constexpr (placed) return static_cast<std::size_t>(cell_[p]);
     return p / per_cell_;
   }
+  /// The first and the last cell in which a particle stands: there may be empty ones between bars, and beyond their
+  /// ends three times as many as they fill.
+  std::size_t first_filled() const { return cell_of(0); }
+  std::size_t last_filled() const { return cell_of(offset.size() - 1); }
   std::size_t left_end_node() const { return cell_of(0); }
   std::size_t right_end_node() const { return cell_of(offset.size() - 1) + 1; }
   /// Whether the grid has a node that both bar `b` and the next one reach.
@@ -102,6 +106,12 @@ class Particles {
 
   /// Takes every particle to where its `advance` leads, into another cell where it must.
   void convect() {
+    int beyond = 0;
+    for (std::size_t p = 0; p < offset.size(); ++p) beyond |= std::abs(offset[p] + advance[p]) > 0.5;
+    if (!beyond) {
+      for (std::size_t p = 0; p < offset.size(); ++p) offset[p] = std::clamp(offset[p] + advance[p], -edge, edge);
+      return;
+    }
     for (std::size_t p = 0; p < offset.size(); ++p) {
       const double moved = offset[p] + advance[p];
       if (std::abs(moved) > 0.5) {
@@ -128,17 +138,18 @@ class Particles {
     return sum;
   }
 
-  /// Visits the nodes in order with the sum of what the particles of the two cells beside it give to each:
-  /// contribution(p, its cell) is a Pair.
+  /// Visits the nodes that particles reach, in order, with the sum of what the particles of the two cells beside it
+  /// give to each: contribution(p, its cell) is a Pair.
   template <class F, class Visit>
   void gather(F&& contribution, Visit&& visit) const {
     double carried = 0;
-    for (std::size_t c = 0; c < cells_; ++c) {
+    const std::size_t end = last_filled() + 1;
+    for (std::size_t c = first_filled(); c < end; ++c) {
       const Pair sum = sum_over_cell(c, [&](std::size_t p) { return contribution(p, c); });
       visit(c, carried + sum.left);
       carried = sum.right;
     }
-    visit(cells_, carried);
+    visit(end, carried);
   }
 
   /// Calls f(p, left node, right node) for the particles of one bar.

@@ -42,6 +42,7 @@ class Bars {
     if (scheme_ == Scheme::usl) step_usl(n, ledger);
     if (scheme_ == Scheme::musl) step_musl(n, ledger);
     if constexpr (convected) watch_contacts(n + 1);
+    node_steps_ += static_cast<long>(grid_.reached().size());
   }
 
   // Update stress first: (vⁿ, σⁿ⁻½) → (vⁿ⁺¹, σⁿ⁺½).
@@ -125,8 +126,7 @@ class Bars {
   Work work(long steps) const {
     const std::size_t of_grid =
         grid_.node.capacity() * sizeof(Node) + grid_.body_force.capacity() * sizeof(grid_.body_force[0]);
-    return {0, static_cast<long>(particles_.offset.size()) * steps, static_cast<long>(grid_.node.size()) * steps,
-            particles_.bytes() + of_grid};
+    return {0, static_cast<long>(particles_.offset.size()) * steps, node_steps_, particles_.bytes() + of_grid};
   }
 
  private:
@@ -141,6 +141,7 @@ class Bars {
   // --- particles to grid ---------------------------------------------------------------------------------------------
 
   void map_mass() {  // eq. 15
+    grid_.reach(particles_.first_filled(), particles_.last_filled() + 1);
     particles_.gather(
         [&](std::size_t p, std::size_t) {
           const double mass = particles_.mass(p);
@@ -302,6 +303,7 @@ class Bars {
   const Scene& scene_;
   Scheme scheme_;
   double dt_, c_max_;
+  long node_steps_ = 0;
   P particles_;
   Grid grid_;
   BarBooks<P> books_;
