@@ -286,7 +286,7 @@ class Bars {
   void convect() {
     if constexpr (convected) {
       particles_.convect();
-      map_mass();
+      if (particles_.trouble().empty()) map_mass();  // of particles out of order there is no first and no last
     }
   }
 
