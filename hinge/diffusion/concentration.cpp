@@ -14,42 +14,12 @@
 #include <utility>
 
 #include "hinge/diffusion/cholesky.hpp"
+#include "hinge/diffusion/node_field.hpp"
+#include "hinge/diffusion/sub_cycles.hpp"
 #include "hinge/wide.hpp"
 
 namespace diptych::diffusion {
 namespace {
-
-/// A value a node with a row of zeros below and above: a sweep over all nodes then reads only what is there.
-class NodeField {
- public:
-  NodeField() = default;
-  explicit NodeField(const Grid& grid)
-      : row_(static_cast<std::size_t>(grid.nx) + 1), nodes_(grid.nodes()), data_(nodes_ + 2 * row_) {}
-
-  double* data() { return data_.data() + row_; }
-  const double* data() const { return data_.data() + row_; }
-  std::span<double> values() { return {data(), nodes_}; }
-  std::span<const double> values() const { return {data(), nodes_}; }
-  void fill(double value) { std::ranges::fill(values(), value); }
-  std::size_t bytes() const { return data_.size() * sizeof(double); }
-
- private:
-  std::size_t row_ = 0, nodes_ = 0;
-  std::vector<double> data_;
-};
-
-/// combine(k, what flows into node k's volume per unit time), rows of `up` nodes. A face gives its two nodes the same
-/// bits with opposite signs; and mirrored fields give mirrored bits.
-template <class Combine>
-DIPTYCH_WIDEST void for_inflows(std::ptrdiff_t nodes, std::ptrdiff_t up, const double* __restrict east,
-                                const double* __restrict north, const double* __restrict u, Combine combine) {
-#pragma GCC ivdep
-  for (std::ptrdiff_t k = 0; k < nodes; ++k) {
-    const double x = east[k] * (u[k + 1] - u[k]) - east[k - 1] * (u[k] - u[k - 1]);
-    const double y = north[k] * (u[k + up] - u[k]) - north[k - up] * (u[k] - u[k - up]);
-    combine(k, x + y);
-  }
-}
 
 constexpr std::uint64_t bits(double value) { return std::bit_cast<std::uint64_t>(value); }
 
@@ -86,22 +56,22 @@ struct Concentration::Parts {
   Scheme scheme;
   Reading reading;
   double drift;
-  std::size_t row;
+  std::size_t row, pitch;  // of the faces and `scale`
 
-  NodeField c, east, north;
+  NodeField c, east, north, scale;         // scale: dt / volume
   std::vector<double> volume;              // ∫ w dA over the control volume
   std::vector<double> diffusivity;         // of each cell, that the faces have
   double largest = 0;                      // of it
   double unit_row_sum = 0;                 // largest Σ faces / volume for d = 1 [1/m²]
   std::vector<double> weight_x, weight_y;  // w at the middle of each half-face, below/above or left/right of it; radial
-  std::vector<double> scale;               // dt / volume
   double scaled_for = -1;
   std::vector<std::size_t> fed_nodes;  // whose source is not zero in this step
   std::vector<std::size_t> held;       // keep their values; in order
   double fed = 0, drawn = 0;           // by the source; from the held nodes
   long node_updates = 0, factorisations = 0;
 
-  NodeField next, before;  // sub-cycling: next; RKL2: two stages back and the first one's increment
+  std::optional<SubCycles> cycles;
+  NodeField next, before;  // forward Euler: next; RKL2: two stages back and the first one's increment
   std::vector<double> first;
 
   std::optional<Cholesky> cholesky;  // of volume + θ dt K
@@ -112,20 +82,24 @@ struct Concentration::Parts {
   std::vector<std::size_t> loose;  // nodes that faces join to others but not to a held one, as factorised; in order
 
   Parts(const Grid& g, Scheme s, Reading r, double dr)
-      : grid(g), scheme(s), reading(r), drift(dr), row(static_cast<std::size_t>(g.nx) + 1) {
+      : grid(g), scheme(s), reading(r), drift(dr), row(static_cast<std::size_t>(g.nx) + 1), pitch(row) {
     require(g.nx >= 1 && g.ny >= 1, "the grid must have a cell at least each way");
     require(g.hx > 0 && g.hy > 0 && std::isfinite(g.hx) && std::isfinite(g.hy), "the cells' sides must be > 0");
     require(dr >= 0, "drift must be >= 0");
     require(dr == 0 || s != Scheme::crank_nicolson,
             "crank-nicolson does not damp what a stale factor gets wrong: drift must be 0");
-    c = east = north = NodeField(g);
-    if (!implicit()) next = NodeField(g);
+    if (scheme == Scheme::sub_cycled) {
+      cycles.emplace(g);
+      pitch = NodeField::of_whole_lines(g);
+    }
+    c = NodeField(g);
+    east = north = scale = NodeField(g, pitch);
+    if (!implicit() && !cycles) next = NodeField(g);
     if (scheme == Scheme::rkl2) {
       before = NodeField(g);
       first.resize(g.nodes());
     }
     diffusivity.assign(g.cells(), 0);
-    scale.resize(g.nodes());
     find_volumes();
     if (reading == Reading::radial) find_weights();
     find_unit_row_sum();
@@ -179,7 +153,7 @@ struct Concentration::Parts {
     for (std::size_t j = 0; j <= rows(); ++j) {
       const double* below = j > 0 ? d + (j - 1) * n : nullptr;
       const double* above = j < rows() ? d + j * n : nullptr;
-      double* e = east.data() + j * row;
+      double* e = east.data() + j * pitch;
       if constexpr (weighted) {
         const double* w = weight_x.data() + 2 * j * row;
         for (std::size_t i = 0; i < n; ++i)
@@ -191,7 +165,7 @@ struct Concentration::Parts {
         for (std::size_t i = 0; i < n; ++i) e[i] = across * only[i];
       }
       if (!above) continue;
-      double* f = north.data() + j * row;
+      double* f = north.data() + j * pitch;
       if constexpr (weighted) {
         const double* w = weight_y.data() + 2 * j * row;
         for (std::size_t i = 0; i <= n; ++i)
@@ -205,10 +179,13 @@ struct Concentration::Parts {
   }
   void find_faces(const double* d) { reading == Reading::radial ? find_faces<true>(d) : find_faces<false>(d); }
 
+  /// Where the faces of a node stand.
+  std::size_t place(std::size_t k) const { return pitch == row ? k : k / row * pitch + k % row; }
+
   /// Σ of the four faces of a node.
   double conductance(std::size_t k) const {
-    const double *e = east.data() + k, *n = north.data() + k;
-    return (e[0] + e[-1]) + (n[0] + n[-static_cast<std::ptrdiff_t>(row)]);
+    const double *e = east.data() + place(k), *n = north.data() + place(k);
+    return (e[0] + e[-1]) + (n[0] + n[-static_cast<std::ptrdiff_t>(pitch)]);
   }
 
   void find_unit_row_sum() {
@@ -237,16 +214,16 @@ struct Concentration::Parts {
 
   /// The next node (right, left, above, below) and the face to it; a face of no conductance where there is none.
   std::array<std::pair<std::size_t, double>, 4> neighbours(std::size_t k) const {
-    const double *e = east.data() + k, *n = north.data() + k;
-    return {{{k + 1, e[0]}, {k - 1, e[-1]}, {k + row, n[0]}, {k - row, n[-static_cast<std::ptrdiff_t>(row)]}}};
+    const double *e = east.data() + place(k), *n = north.data() + place(k);
+    return {{{k + 1, e[0]}, {k - 1, e[-1]}, {k + row, n[0]}, {k - row, n[-static_cast<std::ptrdiff_t>(pitch)]}}};
   }
 
-  /// What flows into the held nodes per unit time.
+  /// What flows into the held nodes per unit time. u: of a field that stands as the faces do.
   double into_held(const double* u) const {
     double sum = 0;
     for (const std::size_t k : held) {
       for (const auto& [other, face] : neighbours(k)) {
-        if (face > 0 && !is_held(other)) sum += face * (u[other] - u[k]);
+        if (face > 0 && !is_held(other)) sum += face * (u[place(other)] - u[place(k)]);
       }
     }
     return sum;
@@ -298,35 +275,45 @@ struct Concentration::Parts {
 
   void set_scale(double dt) {
     if (dt == scaled_for) return;
-    for (std::size_t k = 0; k < scale.size(); ++k) scale[k] = dt / volume[k];
-    for (const std::size_t k : held) scale[k] = 0;
+    for (std::size_t k = 0; k < volume.size(); ++k) scale.data()[place(k)] = dt / volume[k];
+    for (const std::size_t k : held) scale.data()[place(k)] = 0;
     scaled_for = dt;
   }
 
-  /// combine(k, what flows into node k's volume per unit time) for all nodes.
+  /// combine(k, what flows into node k's volume per unit time) for all nodes, where the faces' rows are one after the
+  /// other.
   template <class Combine>
   void sweep(const double* u, Combine combine) const {
     for_inflows(static_cast<std::ptrdiff_t>(volume.size()), static_cast<std::ptrdiff_t>(row), east.data(), north.data(),
                 u, combine);
   }
 
-  void euler(std::span<const double> source, double dt, long parts) {
+  void euler(std::span<const double> source, double dt) {
+    set_scale(dt);
+    const double* u = c.data();
+    double* out = next.data();
+    const auto up = static_cast<std::ptrdiff_t>(row), nodes = static_cast<std::ptrdiff_t>(volume.size());
+    diffusion::euler({up, east.data(), north.data(), scale.data()}, nodes, u, out);
+    for (const std::size_t k : fed_nodes) out[k] += dt * source[k];
+    drawn -= dt * into_held(u);
+    std::swap(c, next);
+    node_updates += static_cast<long>(volume.size());
+  }
+
+  void sub_cycle(std::span<const double> source, double dt, long parts) {
     const double part = dt / static_cast<double>(parts);
     set_scale(part);
-    const bool fed_everywhere = held.empty() && 2 * fed_nodes.size() > volume.size();
-    for (long i = 0; i < parts; ++i) {
-      const double* __restrict u = c.data(), * __restrict s = scale.data(), * __restrict q = source.data();
-      double* __restrict out = next.data();
-      if (fed_everywhere) {
-        sweep(u,
-              [=](std::ptrdiff_t k, double inflow) DIPTYCH_INLINE { out[k] = (u[k] + s[k] * inflow) + part * q[k]; });
-      } else {
-        sweep(u, [=](std::ptrdiff_t k, double inflow) DIPTYCH_INLINE { out[k] = u[k] + s[k] * inflow; });
-        for (const std::size_t k : fed_nodes) out[k] += part * source[k];
+    cycles->feed(fed_nodes, source);
+    cycles->values().take(c);
+    if (held.empty()) {
+      cycles->take(parts, east, north, scale, part);
+    } else {
+      for (long i = 0; i < parts; ++i) {
+        drawn -= part * into_held(cycles->values().data());
+        cycles->take(1, east, north, scale, part);
       }
-      drawn -= part * into_held(u);
-      std::swap(c, next);
     }
+    c.take(cycles->values());
     node_updates += parts * static_cast<long>(volume.size());
   }
 
@@ -567,8 +554,8 @@ void Concentration::step(std::span<const double> diffusivity, std::span<const do
     return;
   }
   switch (p.scheme) {
-    case Scheme::forward_euler: return p.euler(source, dt, 1);
-    case Scheme::sub_cycled: return p.euler(source, dt, std::max(1L, static_cast<long>(parts)));
+    case Scheme::forward_euler: return p.euler(source, dt);
+    case Scheme::sub_cycled: return p.sub_cycle(source, dt, std::max(1L, static_cast<long>(parts)));
     case Scheme::rkl2: return p.rkl2(source, dt);
     case Scheme::backward_euler:
     case Scheme::crank_nicolson: return p.solve(source, dt);
@@ -593,11 +580,11 @@ std::size_t Concentration::bytes() const {
   const Parts& p = *parts_;
   std::size_t sum = sizeof(Parts) + p.ties.capacity() * sizeof(p.ties[0]) +
                     (p.fed_nodes.capacity() + p.held.capacity() + p.loose.capacity()) * sizeof(std::size_t);
-  for (const NodeField* f : {&p.c, &p.east, &p.north, &p.next, &p.before}) sum += f->bytes();
+  for (const NodeField* f : {&p.c, &p.east, &p.north, &p.scale, &p.next, &p.before}) sum += f->bytes();
   for (const std::vector<double>* v :
-       {&p.volume, &p.diffusivity, &p.weight_x, &p.weight_y, &p.scale, &p.first, &p.factorised, &p.right, &p.ground})
+       {&p.volume, &p.diffusivity, &p.weight_x, &p.weight_y, &p.first, &p.factorised, &p.right, &p.ground})
     sum += v->capacity() * sizeof(double);
-  return sum + (p.cholesky ? p.cholesky->bytes() : 0);
+  return sum + (p.cycles ? p.cycles->bytes() : 0) + (p.cholesky ? p.cholesky->bytes() : 0);
 }
 
 }  // namespace diptych::diffusion
