@@ -312,11 +312,11 @@ class PlateBody {
   void change_cells(const VectorField& velocity, double dt, bool keeps_books) {
     for_rows([&](std::size_t j) { particles_.drive_row(j, model_.driver(), &driver_[j * lattice_.nx]); });
     model_.advance(driver_, dt);
-    const auto renew = [&] { for_rows([&](std::size_t j) { model_.renew(j * lattice_.nx, lattice_.nx); }); };
+    const auto renew = [&](std::size_t first, std::size_t cells) { model_.renew(first, cells); };
     if (keeps_books && model_.has_potential())
       books_.count_damage(velocity, dt, renew);
     else
-      renew();
+      for_rows([&](std::size_t j) { renew(j * lattice_.nx, lattice_.nx); });
   }
   template <class F>
   void for_rows(F&& f) {

@@ -13,10 +13,12 @@
 #include "hinge/solid/plane_model.hpp"
 #include "hinge/step/ledger.hpp"
 #include "hinge/step/stepping.hpp"
+#include "hinge/wide.hpp"
 #include "mpm/plate.hpp"
 #include "mpm/plate_grid.hpp"
 #include "mpm/plate_loads.hpp"
 #include "mpm/plate_particles.hpp"
+#include "mpm/plate_place.hpp"
 #include "mpm/plate_viscosity.hpp"
 
 namespace diptych::mpm {
@@ -93,7 +95,7 @@ class PlateBooks {
       const double ax = grid_.acceleration.x[node], ay = grid_.acceleration.y[node];
       grid += m * (ax * ax + ay * ay);
     });
-    const double particles = particles_.state().mass * sum([&](const Place& at) {
+    const double particles = particles_.state().mass * sum([&](const Place& at) DIPTYCH_INLINE {
                                const Vector a = at.value(grid_.acceleration);
                                return a[0] * a[0] + a[1] * a[1];
                              });
@@ -105,8 +107,12 @@ class PlateBooks {
 
   /// Before the strains' update with these velocities, where the ledger is due.
   void begin_update(const VectorField& velocity, Ledger& ledger) {
-    const double half_work = work_of_stress(velocity) / 2;
-    stored_and_half_ = stored_energy() + half_work;
+    const auto [work, stored] = sums([&](const Place& at) DIPTYCH_INLINE {
+      return std::array{work_rate_of_stress(at, velocity), stored_at(at)};
+    });
+    const State& state = particles_.state();
+    const double half_work = state.volume * dt_ * work / 2;
+    stored_and_half_ = state.volume * stored + half_work;
     if (!ledger.keeps()) return;
     if (convected && scheme_ == Scheme::usf) ledger.take_by_scheme(-(half_work_of_kick_ + half_work));
     if (damping_) ledger.take_by_viscosity(work_of_viscosity(velocity) / 2);
@@ -119,39 +125,51 @@ class PlateBooks {
                         lent_ - (damping_ ? work_of_viscosity(velocity) / 4 : 0));
       return;
     }
-    half_work_ = work_of_stress(velocity) / 2;
+    // Nothing asks for what a linear law stores.
+    const auto [work, kinetic, stored] = sums([&](const Place& at) DIPTYCH_INLINE {
+      return std::array{work_rate_of_stress(at, velocity), speed_squared(at), Model::linear ? 0 : stored_at(at)};
+    });
+    const State& state = particles_.state();
+    half_work_ = state.volume * dt_ * work / 2;
     // What the trapezium of the leapfrog finds gone; nothing where the law is linear.
     double between = 0, taken = 0;
-    if (!Model::linear) between = stored_and_half_ + half_work_ - stored_energy();
+    if (!Model::linear) between = stored_and_half_ + half_work_ - state.volume * stored;
     if (Model::staggered) taken += taken_by_damage_;
     if constexpr (Model::yields) taken += work_of_flow();
     if (!model_.has_potential()) taken = between;
     const double viscous = damping_ ? work_of_viscosity(velocity) / 2 : 0;
     const double spent = !Model::only_takes ? 0 : model_.has_potential() ? taken_by_damage_ : between;
-    ledger.close_line(kinetic_energy(), stored_and_half_, taken, momentum(), lent_ - viscous / 2, spent);
+    ledger.close_line(state.mass / 2 * kinetic, stored_and_half_, taken, momentum(), lent_ - viscous / 2, spent);
     ledger.take_by_scheme(between - taken);
     ledger.take_by_viscosity(viscous);
     half_work_ += viscous;
   }
-  /// Where `renew` gives cells their new laws, with the strains as these velocities have just made them in dt.
+  /// Where renew(first cell, cells) gives the cells of each row their new laws, with the strains as these velocities
+  /// have just made them in dt. Of cells that do not change damage takes nothing.
   template <class Renew>
   void count_damage(const VectorField& velocity, double dt, Renew&& renew) {
-    stored_before_.resize(particles_.storage());
-    sum([&](const Place& at) { return (stored_before_[at.particle] = stored_along(at, velocity, dt))[0]; });
-    renew();
-    taken_by_damage_ = particles_.state().volume * sum([&](const Place& at) {
-                         const auto before = stored_before_[at.particle], after = stored_along(at, velocity, dt);
-                         return std::min(before[0] - after[0], before[1] - after[1]);
-                       });
+    if constexpr (!convected) {
+      const std::size_t columns = grid_.columns();
+      bands_.for_each([&](Band& band) {
+        for (std::size_t j = band.first; j < band.last; ++j) {
+          const std::size_t row = j * columns;
+          std::size_t from = 0, to = columns;
+          while (from < to && !model_.outdated(row + from)) ++from;
+          while (from < to && !model_.outdated(row + to - 1)) --to;
+          row_sums_[j][0] = from < to ? taken_in_row(j, from, to, velocity, dt, renew, band.told) : 0;
+        }
+      });
+      taken_by_damage_ = particles_.state().volume * of_rows<1>()[0];
+    }
   }
 
  private:
   /// A part of PIC adds d = part · (Σ N v − v_p) to a particle's velocity.
   void account_for_pic(double kick, Ledger& ledger) {
     const double share = scheme_ == Scheme::usl ? 1 : 0.5;  // of the kick in the velocity that d works on
-    const double given = particles_.state().mass * sum([&](const Place& at) {
+    const double given = particles_.state().mass * sum([&](const Place& at) DIPTYCH_INLINE {
                            const Vector a = at.value(grid_.acceleration), v = at.value(grid_.velocity);
-                           const auto component = [&](double mine, double grid, double kicked) {
+                           const auto component = [&](double mine, double grid, double kicked) DIPTYCH_INLINE {
                              const double d = pic_ * (grid - mine);
                              return (mine + share * kick * kicked + d / 2) * d;
                            };
@@ -161,18 +179,51 @@ class PlateBooks {
     ledger.take_by_scheme(-given);
   }
 
-  /// Σ f of particles, row by row: the same bits for any number of threads.
-  template <class F>
-  double sum(F&& f) {
+  /// Σ of what damage takes at the least in columns [from, to) of a row of cells, of each particle the smaller of the
+  /// falls of ψ where the last strain increment began and where it ended. told: room.
+  template <class Renew>
+  double taken_in_row(std::size_t j, std::size_t from, std::size_t to, const VectorField& velocity, double dt,
+                      Renew&& renew, std::vector<double>& told) {
+    const std::size_t cells = to - from, particles = particles_.per_cell(), count = cells * particles;
+    if (told.size() < 4 * count) told.resize(4 * count);
+    const auto tell = [&](double* out) {
+      particles_.tell_row(
+          j, from, to, [&](const Place& at) DIPTYCH_INLINE { return stored_along(at, velocity, dt); }, out);
+    };
+    double *before = told.data(), *after = before + 2 * count;
+    tell(before);
+    renew(j * grid_.columns() + from, cells);
+    tell(after);
+    double sum = 0;
+    for (std::size_t i = 0; i < cells; ++i) {
+      for (std::size_t p = i; p < count; p += cells)
+        sum += std::min(before[p] - after[p], before[count + p] - after[count + p]);
+    }
+    return sum;
+  }
+
+  /// Sums over all particles of what `tell` says of each, row by row: the same bits for any number of threads.
+  template <class Tell>
+  std::array<double, told_by<Tell>> sums(Tell tell) {
+    static_assert(told_by<Tell> <= most_told);
     bands_.for_each([&](Band& band) {
       for (std::size_t j = band.first; j < band.last; ++j) {
-        double row = 0;
-        particles_.visit_row(j, [&](const Place& at) { row += f(at); });
-        row_sums_[j] = row;
+        const auto of_row = particles_.sum_row(j, tell, band.told);
+        std::copy(of_row.begin(), of_row.end(), row_sums_[j].begin());
       }
     });
-    double total = 0;
-    for (const double row : row_sums_) total += row;
+    return of_rows<told_by<Tell>>();
+  }
+  template <class F>
+  double sum(F f) {
+    return sums([f](const Place& at) DIPTYCH_INLINE { return std::array{f(at)}; })[0];
+  }
+  template <std::size_t numbers>
+  std::array<double, numbers> of_rows() const {
+    std::array<double, numbers> total{};
+    for (const auto& row : row_sums_) {
+      for (std::size_t q = 0; q < numbers; ++q) total[q] += row[q];
+    }
     return total;
   }
   template <class F>
@@ -183,22 +234,31 @@ class PlateBooks {
   }
 
   double kinetic_energy() {
-    const State& state = particles_.state();
-    return state.mass / 2 * sum([&](const Place& at) {
-             const double x = state.velocity.x[at.particle], y = state.velocity.y[at.particle];
-             return x * x + y * y;
-           });
+    return particles_.state().mass / 2 * sum([&](const Place& at) DIPTYCH_INLINE { return speed_squared(at); });
   }
   double stored_energy() {
-    const State& state = particles_.state();
-    return state.volume *
-           sum([&](const Place& at) { return model_.stored(state.strain[at.particle], at.cell, at.particle); });
+    return particles_.state().volume * sum([&](const Place& at) DIPTYCH_INLINE { return stored_at(at); });
+  }
+  [[gnu::always_inline]] double speed_squared(const Place& at) const {
+    const VectorField& velocity = particles_.state().velocity;
+    const double x = velocity.x[at.particle], y = velocity.y[at.particle];
+    return x * x + y * y;
+  }
+  /// ψ [J/m³].
+  [[gnu::always_inline]] double stored_at(const Place& at) const {
+    return model_.stored(particles_.state().strain[at.particle], at.cell, at.particle);
   }
   /// ψ of a particle where the last strain increment began and where it ended [J/m³].
-  std::array<double, 2> stored_along(const Place& at, const VectorField& velocity, double dt) {
+  [[gnu::always_inline]] std::array<double, 2> stored_along(const Place& at, const VectorField& velocity,
+                                                            double dt) const {
     const material::Tensor now = particles_.state().strain[at.particle];
     return {model_.stored(now - at.gradient(velocity, grid_) * dt, at.cell, at.particle),
             model_.stored(now, at.cell, at.particle)};
+  }
+  /// Of the stress at hand on the strain rate of these velocities [W/m³].
+  [[gnu::always_inline]] double work_rate_of_stress(const Place& at, const VectorField& velocity) const {
+    return model_.standing(particles_.state().strain[at.particle], at.cell, at.particle)
+        .contract(at.gradient(velocity, grid_));
   }
   /// σ:Δε_p of the last update.
   double work_of_flow() {
@@ -206,17 +266,9 @@ class PlateBooks {
              return model_.work_of_flow(particles_.state().strain[at.particle], at.cell, at.particle);
            });
   }
-  /// Of the stress at hand on the strain increment of these velocities.
-  double work_of_stress(const VectorField& velocity) {
-    const State& state = particles_.state();
-    return state.volume * dt_ * sum([&](const Place& at) {
-             return model_.standing(state.strain[at.particle], at.cell, at.particle)
-                 .contract(at.gradient(velocity, grid_));
-           });
-  }
-  /// Of the artificial viscosity at hand, likewise.
+  /// Of the artificial viscosity at hand on the strain increment of these velocities [J].
   double work_of_viscosity(const VectorField& velocity) {
-    return particles_.state().volume * dt_ * sum([&](const Place& at) {
+    return particles_.state().volume * dt_ * sum([&](const Place& at) DIPTYCH_INLINE {
              const material::Tensor rate = at.gradient(velocity, grid_);
              return damping_->stress(at.particle) * (rate.xx + rate.yy);
            });
@@ -248,8 +300,8 @@ class PlateBooks {
   const std::optional<Damping>& damping_;
   Scheme scheme_;
   double dt_, pic_;
-  std::vector<double> row_sums_;
-  std::vector<std::array<double, 2>> stored_before_;  // of particles, before their cells change
+  static constexpr std::size_t most_told = 3;
+  std::vector<std::array<double, most_told>> row_sums_;
   double stored_and_half_ = 0, half_work_ = 0, half_work_of_kick_ = 0, driven_excess_ = 0, taken_by_damage_ = 0,
          lent_ = 0;
 };

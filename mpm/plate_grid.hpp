@@ -99,6 +99,7 @@ struct Band {
   std::array<CornerShares, 2> shares;
   std::array<std::vector<double>, 2> from_below, seam, sum;  ///< of one node row
   std::array<std::vector<double>, 2> low, high;              ///< kicked velocities of the row's bottom and top nodes
+  std::vector<double> told;                                  ///< of a row's particles, where something is added up
 };
 
 /// Cells from `left` to before `right`, of rows from `bottom` to before `top`.
@@ -181,7 +182,9 @@ class Bands {
   }
 
   /// With one thread.
-  std::size_t bytes() const { return 18 * bands_[0].sum[0].capacity() * sizeof(double) + sizeof(Band); }
+  std::size_t bytes() const {
+    return (18 * bands_[0].sum[0].capacity() + bands_[0].told.capacity()) * sizeof(double) + sizeof(Band);
+  }
 
  private:
   std::vector<Band> bands_;

@@ -12,6 +12,7 @@
 #include "hinge/solid/arrays.hpp"
 #include "mpm/plate_grid.hpp"
 #include "mpm/plate_kernels.hpp"
+#include "mpm/plate_place.hpp"
 #include "mpm/plate_viscosity.hpp"
 
 namespace diptych::mpm {
@@ -60,29 +61,6 @@ struct State {
   std::size_t bytes() const { return velocity.bytes() + displacement.bytes() + strain.bytes(); }
 };
 
-/// Where a particle is: its cell's first node, its shape functions along x and y (eq. 7 is their product), and who it
-/// is.
-struct Place {
-  std::size_t particle, node, next_row, cell;
-  double left, right, bottom, top;
-
-  double value(const std::vector<double>& f) const {
-    return bottom * (left * f[node] + right * f[node + 1]) +
-           top * (left * f[node + next_row] + right * f[node + next_row + 1]);
-  }
-  Vector value(const VectorField& f) const { return {value(f.x), value(f.y)}; }
-  /// The symmetric part of the gradient.
-  material::Tensor gradient(const VectorField& f, const Grid& grid) const {
-    const auto along_x = [&](const std::vector<double>& v) {
-      return (bottom * (v[node + 1] - v[node]) + top * (v[node + next_row + 1] - v[node + next_row])) / grid.hx;
-    };
-    const auto along_y = [&](const std::vector<double>& v) {
-      return (left * (v[node + next_row] - v[node]) + right * (v[node + next_row + 1] - v[node + 1])) / grid.hy;
-    };
-    return {along_x(f.x), along_y(f.y), 0.5 * (along_y(f.x) + along_x(f.y))};
-  }
-};
-
 /// Infinitesimal displacements: particles keep their places, the same in every cell, and nothing of them is stored. In
 /// each row of cells those of one place stand side by side: particle (row · places + place) · stride + column.
 class Standing {
@@ -120,6 +98,47 @@ class Standing {
       }
     }
   }
+  /// Sums of what `tell` says of the particles of columns [from, to) of a row of cells, cell by cell. told: room, which
+  /// grows as needed.
+  template <class Tell>
+  std::array<double, told_by<Tell>> sum_row(std::size_t j, std::size_t from, std::size_t to, Tell tell,
+                                            std::vector<double>& told) const {
+    constexpr std::size_t numbers = told_by<Tell>;
+    const std::size_t width = to - from, particles = per_cell();
+    if (told.size() < numbers * particles * width) told.resize(numbers * particles * width);
+    tell_row(j, from, to, tell, told.data());
+    std::array<double, numbers> sum{};
+    for (std::size_t i = 0; i < width; ++i) {
+      for (std::size_t k = 0; k < particles; ++k) {
+        for (std::size_t q = 0; q < numbers; ++q) sum[q] += told[(q * particles + k) * width + i];
+      }
+    }
+    return sum;
+  }
+  template <class Tell>
+  auto sum_row(std::size_t j, Tell tell, std::vector<double>& told) const {
+    return sum_row(j, 0, columns_, tell, told);
+  }
+  /// See mpm::tell_row.
+  template <class Tell>
+  void tell_row(std::size_t j, std::size_t from, std::size_t to, Tell tell, double* out) const {
+    for_runs([&](std::size_t first, std::size_t node, std::size_t length) {
+      const std::size_t begin = std::max(first, from), end = std::min(first + length, to);
+      if (begin >= end) return;
+      const Place place{index(begin, j, 0),
+                        grid_.row(j) + node + (begin - first),
+                        grid_.next_row(),
+                        j * columns_ + begin,
+                        0,
+                        0,
+                        0,
+                        0};
+      with_count([&]<std::size_t n>() {
+        mpm::tell_row<n>(places_, end - begin, stride_, place, tell, to - from, out + (begin - from));
+      });
+    });
+  }
+
   Vector position(const Place& at) const {
     const std::size_t k = at.particle / stride_ % per_cell(), j = at.cell / columns_, i = at.cell % columns_;
     return {(static_cast<double>(i) + 0.5 + offset_[k % places_.count]) * grid_.hx,
@@ -243,6 +262,16 @@ class Moving {
   void visit_row(std::size_t j, F&& f) const {
     if (j < reach_.bottom || j >= reach_.top) return;
     for (std::size_t i = reach_.left; i < reach_.right; ++i) visit_cell(i, j, f);
+  }
+  /// Sums of what `tell` says of the particles in a row of cells.
+  template <class Tell>
+  std::array<double, told_by<Tell>> sum_row(std::size_t j, Tell tell, std::vector<double>&) const {
+    std::array<double, told_by<Tell>> sum{};
+    visit_row(j, [&](const Place& at) {
+      const auto told = tell(at);
+      for (std::size_t q = 0; q < sum.size(); ++q) sum[q] += told[q];
+    });
+    return sum;
   }
   Vector position(const Place& at) const {
     const std::size_t c = cell_[at.particle];

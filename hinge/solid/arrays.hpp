@@ -23,7 +23,7 @@ struct TensorField {
   void resize(std::size_t count) {
     for (auto* component : {&xx, &yy, &xy}) allocate(*component, count);
   }
-  material::Tensor operator[](std::size_t p) const { return {xx[p], yy[p], xy[p]}; }
+  [[gnu::always_inline]] material::Tensor operator[](std::size_t p) const { return {xx[p], yy[p], xy[p]}; }
   void set(std::size_t p, const material::Tensor& t) { xx[p] = t.xx, yy[p] = t.yy, xy[p] = t.xy; }
   std::size_t bytes() const { return (xx.capacity() + yy.capacity() + xy.capacity()) * sizeof(double); }
 };
@@ -58,7 +58,7 @@ struct StiffnessField {
 /// A row of cells of it, as plain addresses.
 struct StiffnessRow {
   const double *normal = nullptr, *cross = nullptr, *shear = nullptr;
-  StiffnessRow(const StiffnessField& field, std::size_t first)
+  [[gnu::always_inline]] StiffnessRow(const StiffnessField& field, std::size_t first)
       : normal(field.normal.data() + first), cross(field.cross.data() + first), shear(field.shear.data() + first) {}
 };
 

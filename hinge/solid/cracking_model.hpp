@@ -48,17 +48,18 @@ class Cracking::Model {
     }
     [[gnu::always_inline]] bool whole(std::size_t i) const { return crack_density[i] == 0; }
   };
-  Row row(std::size_t first_cell, std::size_t) const {
+  [[gnu::always_inline]] Row row(std::size_t first_cell, std::size_t) const {
     return {StiffnessRow(open_, first_cell), StiffnessRow(closed_, first_cell), crack_density_.data() + first_cell};
   }
 
   material::Stiffness stiffness(const material::Tensor& strain, std::size_t cell) const {
     return strain.xx + strain.yy >= 0 ? open_[cell] : closed_[cell];
   }
-  material::Tensor standing(const material::Tensor& strain, std::size_t cell, std::size_t) const {
-    return stiffness(strain, cell).stress(strain);
+  [[gnu::always_inline]] material::Tensor standing(const material::Tensor& strain, std::size_t cell,
+                                                   std::size_t p) const {
+    return row(cell, p).stress(strain, 0, p);
   }
-  double stored(const material::Tensor& strain, std::size_t cell, std::size_t p) const {
+  [[gnu::always_inline]] double stored(const material::Tensor& strain, std::size_t cell, std::size_t p) const {
     return row(cell, p).stored(strain, 0);
   }
   bool whole(std::size_t cell, std::size_t p) const { return row(cell, p).whole(0); }

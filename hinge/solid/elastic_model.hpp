@@ -35,10 +35,10 @@ class Elastic::Model : public Unchanging {
   Row row(std::size_t, std::size_t) { return {stiffness_}; }
 
   const material::Stiffness& stiffness(const material::Tensor&, std::size_t) const { return stiffness_; }
-  material::Tensor standing(const material::Tensor& strain, std::size_t, std::size_t) const {
+  [[gnu::always_inline]] material::Tensor standing(const material::Tensor& strain, std::size_t, std::size_t) const {
     return stiffness_.stress(strain);
   }
-  double stored(const material::Tensor& strain, std::size_t, std::size_t) const {
+  [[gnu::always_inline]] double stored(const material::Tensor& strain, std::size_t, std::size_t) const {
     return stiffness_.stress(strain).contract(strain) / 2;
   }
   bool whole(std::size_t, std::size_t) const { return true; }

@@ -38,12 +38,15 @@ class Failing::Model {
     }
     [[gnu::always_inline]] bool whole(std::size_t i) const { return dilatancy[i] == 0; }
   };
-  Row row(std::size_t first_cell, std::size_t) const { return {law_, dilatancy_.of_cells().data() + first_cell}; }
+  [[gnu::always_inline]] Row row(std::size_t first_cell, std::size_t) const {
+    return {law_, dilatancy_.of_cells().data() + first_cell};
+  }
 
-  material::Tensor standing(const material::Tensor& strain, std::size_t cell, std::size_t) const {
+  [[gnu::always_inline]] material::Tensor standing(const material::Tensor& strain, std::size_t cell,
+                                                   std::size_t) const {
     return law_.stress(strain, dilatancy_.of_cells()[cell]);
   }
-  double stored(const material::Tensor& strain, std::size_t cell, std::size_t p) const {
+  [[gnu::always_inline]] double stored(const material::Tensor& strain, std::size_t cell, std::size_t p) const {
     return row(cell, p).stored(strain, 0);
   }
   bool whole(std::size_t cell, std::size_t p) const { return row(cell, p).whole(0); }
