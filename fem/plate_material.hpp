@@ -102,15 +102,18 @@ class PlateMaterial {
 
   /// Stresses of all cells at uⁿ. keeps_books: also what damage and flow take, in the step of dt that ends there.
   void update_stress(double dt, bool keeps_books) {
-    rows_.for_each([&](Index j) {
-      Taken taken;
-      const bool counts = !Model::linear && keeps_books;
-      renew(j, dt, counts && model_.has_potential(), taken);
-      if constexpr (Model::yields)
-        mesh_.for_row(j, [&](CellAt at) { stress_.own[at.cell] = update_cell(at, taken); });
-      else
-        update_row(j);
-      if (counts) taken_[j] = taken;
+    const bool counts = !Model::linear && keeps_books;
+    rows_.for_bands([&](Index band) {
+      std::vector<double> room;
+      for (Index j = rows_.begin(band); j < rows_.end(band); ++j) {
+        Taken taken;
+        renew(j, dt, counts && model_.has_potential(), taken, room);
+        if constexpr (Model::yields)
+          mesh_.for_row(j, [&](CellAt at) { stress_.own[at.cell] = update_cell(at, taken); });
+        else
+          update_row(j);
+        if (counts) taken_[j] = taken;
+      }
     });
   }
 
@@ -137,25 +140,27 @@ class PlateMaterial {
   /// What damage can have taken at the least, of the falls of ψ where the step began and where it ended.
   static double least_taken(double at_begin, double at_end) { return std::min(at_begin, at_end); }
 
-  /// What has changed in a row's cells takes effect.
-  void renew(Index j, double dt, bool counts, Taken& taken) {
-    const Index first = j * mesh_.nx, n = mesh_.nx;
-    if (!counts) return model_.renew(first, n);
+  /// What has changed in a row's cells takes effect. room: for what is told of the row, which grows as needed.
+  void renew(Index j, double dt, bool counts, Taken& taken, std::vector<double>& room) {
+    Index from = j * mesh_.nx, to = from + mesh_.nx;
+    if (!counts) return model_.renew(from, mesh_.nx);
     if constexpr (!Model::yields && TellsEnergy<typename Model::Row>) {
-      std::vector<unsigned char> changes(n);
-      for (Index i = 0; i < n; ++i) changes[i] = model_.outdated(first + i);
-      if (std::find(changes.begin(), changes.end(), 1) == changes.end()) return;
-      std::vector<double> before(8 * n), after(8 * n);
-      const auto tell = [&](std::vector<double>& energy) {
-        stored_row(mesh_.displacements({first, j}), mesh_.velocities({first, j}), mesh_.h, dt, n,
-                   model_.row(first, 4 * first), stress_.solid, energy.data());
+      while (from < to && !model_.outdated(from)) ++from;
+      while (from < to && !model_.outdated(to - 1)) --to;
+      if (from == to) return;
+      const Index cells = to - from;
+      if (room.size() < 16 * cells) room.resize(16 * cells);
+      double *before = room.data(), *after = before + 8 * cells;
+      const auto tell = [&](double* energy) {
+        stored_row(mesh_.displacements({from, j}), mesh_.velocities({from, j}), mesh_.h, dt, cells,
+                   model_.row(from, 4 * from), stress_.solid, energy);
       };
       tell(before);
-      model_.renew(first, n);
+      model_.renew(from, cells);
       tell(after);
-      const auto fall = [&](Index k, Index i) { return before[k * n + i] - after[k * n + i]; };
-      for (Index i = 0; i < n; ++i) {
-        for (Index t = 0; t < 4 && changes[i]; ++t) taken.by_damage += least_taken(fall(2 * t, i), fall(2 * t + 1, i));
+      const auto fall = [&](Index k, Index i) { return before[k * cells + i] - after[k * cells + i]; };
+      for (Index i = 0; i < cells; ++i) {
+        for (Index t = 0; t < 4; ++t) taken.by_damage += least_taken(fall(2 * t, i), fall(2 * t + 1, i));
       }
       return;
     }
