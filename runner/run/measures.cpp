@@ -4,13 +4,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "runner/compare/quantities.hpp"
 #include "runner/input/messages.hpp"
 
 namespace diptych::runner {
 
+bool takes_runs(const std::string& quantity) {
+  return quantity.starts_with("bits.") || quantity.starts_with("cross.") || quantity == "critical_courant";
+}
+
 bool asks_for(const Case& c, const Leaf& leaf, const std::string& quantity) {
+  if (!takes_runs(quantity)) throw std::logic_error("asks_for: " + quantity + " takes no runs of its own");
   return std::any_of(c.gates.begin(), c.gates.end(),
                      [&](const GateSpec& gate) { return gate.quantity == quantity && matches(gate.where, leaf); });
 }

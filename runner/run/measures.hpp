@@ -17,7 +17,11 @@ namespace diptych::runner {
 /// something of them.
 Books books_of(const Case&, const Leaf&, Books least);
 
-/// Whether some gate judges this quantity of this run.
+/// Whether a quantity takes runs of its own beside the one that it is of.
+bool takes_runs(const std::string& quantity);
+
+/// Whether some gate judges this quantity, which takes runs of its own, of this run. Throws std::logic_error where it
+/// takes none: it is then measured of every run, or runs of several cases would be taken for the same, see sharing.hpp.
 bool asks_for(const Case&, const Leaf&, const std::string& quantity);
 
 std::string status_of(Outcome);

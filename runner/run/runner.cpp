@@ -12,6 +12,7 @@
 
 #include "runner/input/messages.hpp"
 #include "runner/run/doubt.hpp"
+#include "runner/run/sharing.hpp"
 
 namespace diptych::runner {
 namespace {
@@ -38,7 +39,26 @@ struct Task {
   TimeStep step{};
   double work = 0;           ///< about as many updates of unknowns
   std::string refused = {};  ///< why it may not be run
+  std::vector<Task> same{};  ///< of other cases, which get its results, too
 };
+
+/// Tasks that make the same run go with the first of them.
+void share(std::vector<Task>& tasks, const Running& running) {
+  std::map<std::string, std::size_t> first;
+  std::vector<Task> made;
+  for (Task& task : tasks) {
+    const auto words = running.wanted ? std::nullopt : words_of_run(*task.c, task.leaf, running);
+    if (words) {
+      const auto [place, is_new] = first.try_emplace(*words, made.size());
+      if (!is_new) {
+        made[place->second].same.push_back(std::move(task));
+        continue;
+      }
+    }
+    made.push_back(std::move(task));
+  }
+  tasks = std::move(made);
+}
 
 }  // namespace
 
@@ -104,6 +124,8 @@ std::vector<reports::Case> run_cases(const std::vector<Case>& cases, const Runni
   });
   for (const Task& task : tasks)
     if (!task.refused.empty()) throw InputError(task.refused);
+  const std::size_t total = tasks.size();
+  share(tasks, running);
   std::stable_sort(tasks.begin(), tasks.end(), [&](const Task& a, const Task& b) {
     return running.cheapest_first ? a.work < b.work : a.work > b.work;
   });
@@ -131,10 +153,21 @@ std::vector<reports::Case> run_cases(const std::vector<Case>& cases, const Runni
         run.message = problem.what();
       }
     }
-    if (const std::string& doubt = doubts.at({task.which, task.leaf.variant}); !doubt.empty()) run.invalid = doubt;
-    const std::lock_guard<std::mutex> lock(telling);
-    if (running.finished && run.status != "left out") running.finished(task.which, run);
-    if (running.progress) running.progress(++done, tasks.size());
+    const auto hand_over = [&](const Task& to, reports::Run& result) {
+      if (const std::string& doubt = doubts.at({to.which, to.leaf.variant}); !doubt.empty()) result.invalid = doubt;
+      const std::lock_guard<std::mutex> lock(telling);
+      if (running.finished && result.status != "left out") running.finished(to.which, result);
+      if (running.progress) running.progress(++done, total);
+    };
+    const reports::Run measured = task.same.empty() ? reports::Run{} : run;
+    hand_over(task, run);
+    for (const Task& other : task.same) {
+      reports::Run& copy = results[other.which].runs[other.slot];
+      const std::string id = copy.case_id;
+      copy = measured;
+      copy.case_id = id;
+      hand_over(other, copy);
+    }
   });
   return results;
 }

@@ -10,6 +10,7 @@
 #include "runner/app/provenance.hpp"
 #include "runner/run/doubt.hpp"
 #include "runner/run/runner.hpp"
+#include "runner/run/sharing.hpp"
 #include "tests/messages.hpp"
 #include "tests/text.hpp"
 
@@ -48,6 +49,76 @@ BOOST_AUTO_TEST_CASE(any_number_of_threads_gives_the_same_bits) {
     }
   }
   BOOST_TEST(compared > 20U);
+}
+
+BOOST_AUTO_TEST_CASE(runs_that_plates_have_in_common_are_made_once) {
+  std::ifstream file(by_id("plate.damage").path);
+  std::stringstream text;
+  text << file.rdbuf();
+  const std::string whole = text.str(), gate = R"([[gate]]
+id = "whole"
+kind = "invariant"
+quantity = "area.error"
+max = 1e-12
+reason = "to the end"
+)";
+  const std::string one_mesh =
+      replaced(whole.substr(0, whole.find("[[gate]]")), "cells = [10, 16, 20, 40, 80, 160]", "cells = [10]") + gate;
+  const auto read = [&](const std::string& id, const std::string& from, const std::string& to) {
+    const std::string named = replaced(one_mesh, "id = \"plate.damage\"", "id = \"" + id + "\"");
+    return parse_case(replaced(named, from, to), "t.toml");
+  };
+  const std::vector<Case> cases{read("plate.one", "", ""),
+                                read("plate.same", "courant = [0.5]", "courant = [0.5, 0.4]"),
+                                read("plate.other", "radius = 0.1", "radius = 0.11")};
+  const auto results = run_cases(cases, {1});
+  std::size_t compared = 0;
+  for (std::size_t r = 0; r < results[0].runs.size(); ++r) {
+    const reports::Run &first = results[0].runs[r], &other = results[2].runs.at(r);
+    for (const reports::Run& second : results[1].runs) {
+      if (second.label() != first.label()) continue;
+      BOOST_TEST(second.case_id == "plate.same");
+      BOOST_TEST(second.status == "completed");
+      BOOST_TEST(same(first, second));
+      BOOST_TEST(first.wall_seconds == second.wall_seconds);
+      ++compared;
+    }
+    BOOST_TEST(other.case_id == "plate.other");
+    BOOST_TEST(!same(first, other));
+    BOOST_TEST(first.wall_seconds != other.wall_seconds);
+  }
+  BOOST_TEST(compared == 2U);
+}
+
+BOOST_AUTO_TEST_CASE(runs_are_told_apart_by_all_that_they_see) {
+  std::ifstream file(by_id("plate.damage").path);
+  std::stringstream text;
+  text << file.rdbuf();
+  const Leaf leaf{"fem", 16, 0.5, {}, {}, ""};
+  const auto words = [&](const std::string& from, const std::string& to, const Running& running = {}) {
+    return *words_of_run(parse_case(replaced(text.str(), from, to), "t.toml"), leaf, running);
+  };
+  const std::string plain = words("", "");
+  BOOST_TEST(words("id = \"plate.damage\"", "id = \"plate.same\"") == plain);
+  BOOST_TEST(words("cells = [10, 16, 20, 40, 80, 160]", "cells = [10, 16, 20, 40, 80, 160, 320]") == plain);
+  BOOST_TEST(words("apart = [0.05, 0.03, 0.01, 0.005]", "apart = [0.05, 0.03, 0.01, 0.006]") == plain);
+  BOOST_TEST(words("height = 1.5", "height = 1.6") != plain);
+  BOOST_TEST(words("E = 50e9", "E = 51e9") != plain);
+  BOOST_TEST(words("at = [0.4e-3, ", "at = [0.3e-3, 0.4e-3, ") != plain);
+  BOOST_TEST(words("level = 0.05, angle = 45", "level = 0.05, angle = 46") != plain);
+  BOOST_TEST(words("quantity = \"bits.threads\"", "quantity = \"bits.repeat\"") != plain);
+  BOOST_TEST(words("", "", {.books = Books::lines}) != plain);
+  BOOST_TEST(words("", "", {.keep_fields = true}) != plain);
+  Leaf finer = leaf;
+  finer.cells = 20;
+  Case c = parse_case(text.str(), "t.toml");
+  BOOST_TEST(*words_of_run(c, finer, {}) != plain);
+  c.changed = "material.nu=0.3";
+  BOOST_TEST(!words_of_run(c, leaf, {}));
+  finer.variant = "literal";
+  BOOST_TEST(!words_of_run(c, finer, {}));
+  const Case bars = by_id("bar.step.free-free");
+  BOOST_TEST(!words_of_run(bars, leaves(bars)[0], {}));
 }
 
 BOOST_AUTO_TEST_CASE(a_step_above_the_limit_is_refused_with_both_numbers) {
