@@ -51,11 +51,11 @@ class Concentrating : public NoMechanics {
 
   void step(long n, Ledger&) {
     const double middle = (static_cast<double>(n) + 0.5) * dt_;
-    const bool fed_by_something = scene_.rate || scene_.corner_rate != 0;
     if (scene_.rate) at_nodes(source_, [&](double px, double py) { return scene_.rate(px, py, middle); });
     if (scene_.corner_rate != 0)
       source_[0] = scene_.corner_rate / (grid_.hx * grid_.hy / 4);  // of the corner's quarter
-    for (std::size_t k = 0; fed_by_something && k < source_.size(); ++k) fed_ += source_[k] * area_[k] * dt_;
+    const std::size_t fed = scene_.rate ? source_.size() : scene_.corner_rate != 0 ? 1 : 0;
+    for (std::size_t k = 0; k < fed; ++k) fed_ += source_[k] * area_[k] * dt_;
     field_.step(diffusivity_, source_, dt_);
   }
   PlateSnapshot sample(long step) const { return of_nodes(field_.values(), step, dt_); }

@@ -98,13 +98,17 @@ reports::Run measured(const LeafScene<S, M, R>& it, const TimeStep& step, const 
   if (record.outcome != Outcome::completed) return run;
 
   it.trace(record, more, stepping, run);
-  const auto own = taken_after(plan.nearest, record.snapshots);
-  for (std::size_t i = 0; i < own.size(); ++i) {
-    const auto at = at_instant(record.snapshots, own[i].step, stepping.time_step, instants[i]);
-    run.samples.push_back(it.sample(own[i], at, c.times[i], running.keep_fields, run));
+  for (std::size_t i = 0; i < instants.size(); ++i) {
+    const auto own = std::find_if(record.snapshots.begin(), record.snapshots.end(),
+                                  [&](const auto& snapshot) { return snapshot.step == plan.nearest[i]; });
+    if (own == record.snapshots.end()) continue;
+    const auto at = at_instant(record.snapshots, own->step, stepping.time_step, instants[i]);
+    run.samples.push_back(it.sample(*own, at, c.times[i], running.keep_fields, run));
   }
   stepping.sample_after = plan.own_steps();
-  record.snapshots = taken_after(stepping.sample_after, record.snapshots);
+  std::erase_if(record.snapshots, [&](const auto& snapshot) {
+    return !std::binary_search(stepping.sample_after.begin(), stepping.sample_after.end(), snapshot.step);
+  });
   it.measure(record, stepping, run);
   if (mass) {
     measure_bits(it, stepping, record, run);
