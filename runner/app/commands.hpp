@@ -22,7 +22,7 @@ struct Options {
   std::vector<std::string> only;  ///< run: the labels of the runs to make; empty: all of them
   bool fields = false;            ///< run: also write all fields at the sample times
   Books books = Books::off;       ///< kept of every run, beside what gates ask for
-  std::vector<std::string> over;  ///< trade, pick: more values of the axes
+  std::vector<std::string> over;  ///< trade, pick, stability: more values of the axes
   std::string scene;              ///< trade, pick: variant and parameters, "plane-stress v0=0.1"; empty: the first
   std::string quantity;           ///< trade, pick: "stress.L2"; empty: the first
   std::optional<double> time;     ///< trade, pick: the sample time; none: the last
@@ -34,6 +34,8 @@ struct Options {
   std::vector<std::string> methods;           ///< bench: ids of panels; empty: FEM and MPM, MUSL
   std::vector<double> points{1e4, 1e5, 1e6};  ///< bench: about so many elements or particles
   std::vector<int> counts;                    ///< bench: numbers of threads; empty: one, and all there are
+  long steps = 2000;                          ///< stability: of each look-ahead
+  double within = 0.01;                       ///< stability: part of theory by which a limit may be off
   std::string pattern;                        ///< test: only the tests whose names it fits
   bool targets = false;                       ///< test: only name what must be built for them
 };
@@ -45,6 +47,7 @@ int trade_command(const Options&, const std::atomic<bool>& cancelled);
 int pick_command(const Options&, const std::atomic<bool>& cancelled);
 int bench_command(const Options&, const std::atomic<bool>& cancelled);
 std::string bench_footer();  ///< of its help: an example, and the scenes that there are
+int stability_command(const Options&, const std::atomic<bool>& cancelled);
 int list_command(const Options&);
 int show_command(const Options&);
 int paper_command(const Options&, const std::atomic<bool>& cancelled);

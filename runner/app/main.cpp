@@ -113,6 +113,27 @@ int main(int argc, char** argv) {
   pick->footer("Example: diptych pick bar.step.fixed-free --error 10% --quantity stress.L1 --time 1.7");
   pick->callback([&] { status = pick_command(options, cancelled); });
 
+  auto* stability = app.add_subcommand(
+      "stability", "up to which Courant (diffusion) number a case's settings are stable about rest, beside theory");
+  add_cases(stability, true);
+  stability
+      ->add_option("--over", options.over,
+                   "more values of an axis, a parameter or any key of the case: material.nu=0.3,0.49, "
+                   "position=0.1:0.9:9 (a cell's one particle), particles=1,2, cells=10,20; the coarsest mesh stands "
+                   "for all unless cells are given; may be given again")
+      ->allow_extra_args(false);
+  stability->add_option("--steps", options.steps, "of each look-ahead; growth that it does not show is not seen")
+      ->check(CLI::Range(20L, 1'000'000L))
+      ->capture_default_str();
+  stability
+      ->add_option("--within", options.within, "part of theory by which a limit may be off; else the status is not 0")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  add_out(stability);
+  add_threads(stability);
+  stability->footer("Example: diptych stability plate.stability --over material.nu=0.3,0.49,0.4999,0.4999999999");
+  stability->callback([&] { status = stability_command(options, cancelled); });
+
   auto* bench = app.add_subcommand("bench", "how quick the solvers' loops are, beside what the memory gives");
   bench->add_option("SCENE", options.selectors, "of those below; all without one");
   bench

@@ -4,10 +4,8 @@
 #include <chrono>
 #include <iterator>
 
-#include "runner/run/bar_leaf.hpp"
-#include "runner/run/diffusion_leaf.hpp"
+#include "runner/run/built.hpp"
 #include "runner/run/measures.hpp"
-#include "runner/run/plate_leaf.hpp"
 
 namespace diptych::runner {
 namespace {
@@ -119,17 +117,6 @@ reports::Run measured(const LeafScene<S, M, R>& it, const TimeStep& step, const 
   run.invalid = why_invalid(c, record.features, declared, run);
   if (run.invalid.empty()) run.invalid = it.doubt();
   return run;
-}
-
-/// The only place that asks a run for its kind of scene.
-template <class Act>
-auto built(const Case& c, const Leaf& leaf, Act&& act) {
-  switch (kind_of(c)) {
-    case SceneKind::plate: return act(PlateLeaf(c, leaf));
-    case SceneKind::diffusion: return act(DiffusionLeaf(c, leaf));
-    case SceneKind::bars: break;
-  }
-  return act(BarLeaf(c, leaf));
 }
 
 }  // namespace

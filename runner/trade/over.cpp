@@ -79,7 +79,7 @@ void add_one(Case& c, const std::string& text) {
   const std::size_t equals = text.find('=');
   const std::string key = text.substr(0, equals);
   const std::string values = equals == std::string::npos ? "" : text.substr(equals + 1);
-  Names keys{"cells", "courant", "method", "particles"};
+  Names keys{"cells", "courant", "method", "particles", "position"};
   for (const auto& [name, value] : c.parameters) keys.push_back(name);
   require_one_of("--over", key, keys);
   if (values.empty()) throw InputError(fmt::format("--over {0}: without values; allowed: {0}=VALUES", key));
@@ -100,6 +100,13 @@ void add_one(Case& c, const std::string& text) {
       std::vector<double> positions;
       for (int k = 0; k < count; ++k) positions.push_back((k + 0.5) / count);
       given.push_back(positions);
+    }
+    each([&](Axes& block) { add_to(block.particles, given); });
+  } else if (key == "position") {
+    std::vector<std::vector<double>> given;
+    for (const double xi : numbers_in(key, values, false)) {
+      if (!(xi >= 0 && xi <= 1)) refuse_values(key, values, "numbers from 0 to 1, the sides of the cell");
+      given.push_back({xi});
     }
     each([&](Axes& block) { add_to(block.particles, given); });
   } else if (key == "courant") {

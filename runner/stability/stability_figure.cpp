@@ -1,0 +1,106 @@
+#include "runner/stability/stability_figure.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "runner/draw/figure_runs.hpp"
+#include "runner/panel.hpp"
+
+namespace diptych::runner {
+namespace {
+
+using reports::StabilityLimit;
+
+bool spans_powers(const std::vector<double>& values) {
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  constexpr double wide = 30;
+  return *least > 0 && *most > wide * *least;
+}
+
+/// Settings in the order of first mention, each with its limits in the order of their axis's values.
+std::vector<std::vector<const StabilityLimit*>> curves_of(const reports::StabilityMap& map) {
+  std::vector<std::vector<const StabilityLimit*>> curves;
+  for (const StabilityLimit& one : map.limits) {
+    if (!one.at || !(one.limit() || one.theory)) continue;
+    const auto same = [&](const auto& curve) { return curve.front()->setting == one.setting; };
+    const auto known = std::find_if(curves.begin(), curves.end(), same);
+    if (known == curves.end())
+      curves.push_back({&one});
+    else
+      known->push_back(&one);
+  }
+  for (auto& curve : curves)
+    std::sort(curve.begin(), curve.end(), [](const auto* a, const auto* b) { return *a->at < *b->at; });
+  return curves;
+}
+
+}  // namespace
+
+std::optional<reports::Figure> stability_figure(const reports::StabilityMap& map) {
+  const auto curves = curves_of(map);
+  std::vector<double> across, up;
+  for (const auto& curve : curves)
+    for (const StabilityLimit* one : curve) {
+      across.push_back(*one->at);
+      if (one->limit()) up.push_back(*one->limit());
+    }
+  if (up.empty() || std::set<double>(across.begin(), across.end()).size() < 2) return {};
+  reports::Figure figure;
+  figure.id = map.case_id + ".stability";
+  figure.title = fmt::format("{}: stability limits", map.title);
+  figure.notes.push_back(fmt::format(
+      "{}; largest {} at which small random motions about rest do not grow in {} steps, by bisection to 0.1 %",
+      map.case_id, map.number, map.steps));
+  figure.looks = looks();
+  figure.x_label = map.axis;
+  figure.y_label = map.number;
+  figure.x_powers = spans_powers(across);
+  figure.y_powers = spans_powers(up);
+  const auto x_of = [&](double value) { return figure.x_powers ? std::log10(value) : value; };
+  const auto y_of = [&](double value) { return figure.y_powers ? std::log10(value) : value; };
+  reports::Figure::Series theory{"theory", "exact", {}};
+  std::vector<reports::Figure::Series> found;
+  std::size_t missing = 0;
+  for (const auto& curve : curves) {
+    const std::string& method = curve.front()->method;
+    reports::Figure::Series series{curve.front()->setting, kind_of_method(method), {}};
+    for (const StabilityLimit* one : curve) {
+      if (const auto limit = one->limit()) {
+        series.curve.x.push_back(x_of(*one->at));
+        series.curve.y.push_back(y_of(*limit));
+      } else {
+        ++missing;
+      }
+      if (one->theory) {
+        theory.curve.x.push_back(x_of(*one->at));
+        theory.curve.y.push_back(y_of(*one->theory));
+      }
+    }
+    theory.curve.x.push_back(std::numeric_limits<double>::quiet_NaN());
+    theory.curve.y.push_back(std::numeric_limits<double>::quiet_NaN());
+    found.push_back(std::move(series));
+  }
+  if (missing > 0)
+    figure.notes.push_back(
+        fmt::format("{} settings have no limit within {:g} to {:g} and are not drawn", missing, map.least, map.most));
+  reports::Figure::Panel panel;
+  if (std::any_of(theory.curve.y.begin(), theory.curve.y.end(), [](double y) { return std::isfinite(y); }))
+    panel.series.push_back(std::move(theory));
+  for (auto& series : found) panel.series.push_back(std::move(series));
+  const auto [left, right] = std::minmax_element(across.begin(), across.end());
+  const auto [low, high] = std::minmax_element(up.begin(), up.end());
+  const double margin = 0.04 * (x_of(*right) - x_of(*left));
+  panel.x_range = std::array<double, 2>{x_of(*left) - margin, x_of(*right) + margin};
+  figure.y_min = figure.y_powers ? y_of(*low) - 0.1 : 0;
+  figure.y_max = figure.y_powers ? y_of(*high) + 0.1 : 1.15 * *high;
+  figure.panels.push_back(std::move(panel));
+  return figure;
+}
+
+}  // namespace diptych::runner
