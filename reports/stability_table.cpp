@@ -37,10 +37,11 @@ std::string stability_text(const StabilityMap& map, double within) {
   };
   out += line("run", "limit", "between", "theory", "ratio", "growth at", "and above") + '\n';
   for (const StabilityLimit& one : map.limits) {
+    const std::string below = one.stable ? "faded" : "-", above = one.unstable ? "refused" : "-";
     const std::string between = one.limit() ? fmt::format("{:.4f}..{:.4f}", *one.stable, *one.unstable) : "-";
-    out +=
-        line(one.label, limit_words(map, one), between, or_dash(one.theory, "{:.4f}"), or_dash(one.ratio(), "{:.4f}"),
-             or_dash(one.growth_below, "{:.1e}"), or_dash(one.growth_above, "{:.1e}"));
+    out += line(one.label, limit_words(map, one), between, or_dash(one.theory, "{:.4f}"),
+                or_dash(one.ratio(), "{:.4f}"), one.growth_below ? fmt::format("{:.1e}", *one.growth_below) : below,
+                one.growth_above ? fmt::format("{:.1e}", *one.growth_above) : above);
     out += one.agrees(within) ? "\n" : "  OFF\n";
     if (!one.message.empty()) out += fmt::format("      {}\n", one.message);
   }

@@ -43,6 +43,16 @@ expect 14 'found "plain"; allowed: "", "plane-stress"' "$program" pick plate.s-w
 expect 14 'did you mean "seconds"' "$program" pick bar.mode.fixed-free --error 1% --by second
 expect 14 'rounds to time' "$program" pick bar.mode.fixed-free --error 1% --seconds 1 --rounds 0
 
+# Up to which step settings are stable.
+expect 0 'fem N=50 +1\.000.*1\.0000' "$program" stability bar.mode.fixed-free --out looked
+expect 0 'limits, [0-9]+ with a theory, all within 1 %' "$program" stability bar.mode.fixed-free --out looked
+expect 0 '^fem N=50,fem,fem,50,1\.000' cat looked/stability/bar.mode.fixed-free.csv
+expect 10 'OFF' "$program" stability bar.stability.limits --within 1e-6 --out looked
+expect 0 'none to 64' "$program" stability diffusion.mode --over diffusion.scheme=rkl2 --out looked
+expect 14 'Courant numbers are what is sought' "$program" stability bar.mode.fixed-free --over courant=0.5
+expect 14 'numbers from 0 to 1, the sides' "$program" stability bar.mode.fixed-free --over position=2
+expect 14 '2 cases; allowed: one' "$program" stability bar.mode.fixed-free bar.energy
+
 # A scene of one's own, and what happens to a gate that cannot hold.
 cat > own.toml <<'TOML'
 schema = 1

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace diptych::runner {
 
@@ -22,7 +21,7 @@ Growth growth_of(const std::vector<double>& energies, long stride, long ahead) {
     when.push_back(static_cast<double>(from + to - 1) / 2 * static_cast<double>(stride));
     logs.push_back(std::log(largest));
   }
-  if (when.size() < 2) return {-std::numeric_limits<double>::infinity(), false};
+  if (when.size() < 2) return {{}, false};
   double intercept = 0, slope = 0, c00 = 0, c01 = 0, c11 = 0, squares = 0;
   gsl_fit_linear(when.data(), 1, logs.data(), 1, when.size(), &intercept, &slope, &c00, &c01, &c11, &squares);
   return {slope / 2, slope * static_cast<double>(ahead) > std::log(growth_of_instability)};

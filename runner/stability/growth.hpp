@@ -1,6 +1,7 @@
 // Whether what is followed over many steps grows without end, and how fast.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 namespace diptych::runner {
@@ -8,8 +9,8 @@ namespace diptych::runner {
 /// What comes of a look-ahead.
 struct Growth {
   /// Of amplitudes, per step: half the slope of log energy, fitted over the second half of the look-ahead, when the
-  /// fastest mode has outgrown the others. < 0: all modes fade.
-  double rate = 0;
+  /// fastest mode has outgrown the others. < 0: all modes fade; none: all have faded to nothing.
+  std::optional<double> rate = 0;
   bool unstable = false;
 };
 

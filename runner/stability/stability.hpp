@@ -26,15 +26,15 @@ struct StabilityPlan {
 /// std::invalid_argument where the panel refuses the step. The case is the one that the leaf has: see case_of.
 Growth growth_about_rest(const Case&, const Leaf&, double number, long steps);
 
-/// What theory says of the limit about rest, or nothing. Bars: of long ones, with a free end where it matters;
-/// lagged viscosity after √(c1² + C0²) − c1. Plates: of a rectangle with free sides the eigenvalues of this very mesh
-/// up to 100 cells, beyond that those of 6 × 6 cells and of the unbounded lattice; of one on rollers all round, those
-/// of the lattice. Diffusion: of forward Euler with one diffusivity.
+/// What theory says of the limit about rest, or nothing. Bars of 16 cells or more, with a free end where it matters;
+/// lagged viscosity after √(c1² + C0²) − c1. Plates: with free sides the eigenvalues of this very mesh up to 100 cells,
+/// beyond that the lesser of 6 × 6 cells' and the unbounded lattice's; on rollers all round, with 16 cells or more each
+/// way, the lattice's. Diffusion: forward Euler with one diffusivity.
 std::optional<double> limit_about_rest(const Case&, const Leaf&);
 
 /// The limit of every setting of the case and of what --over adds. Courant numbers of the case make no difference;
-/// where no numbers of cells are asked for, the coarsest mesh of each block of axes stands for all. Throws InputError
-/// for Courant numbers in `over`.
+/// where no numbers of cells are asked for, the coarsest mesh of each block of axes, of 4 cells if it can be, stands
+/// for all. Throws InputError for Courant numbers in `over`.
 reports::StabilityMap stability_map(const Case&, const StabilityPlan&);
 
 }  // namespace diptych::runner

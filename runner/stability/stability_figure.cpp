@@ -17,6 +17,20 @@ namespace {
 
 using reports::StabilityLimit;
 
+/// What an axis is called, and of which number of its values the figure is: near ½ Poisson's ratio counts by what is
+/// left to it, which is what the moduli go with.
+struct Across {
+  std::string label;
+  double (*of)(double) = [](double value) { return value; };
+};
+Across across_of(const std::string& axis) {
+  if (axis == "position") return {"place of a cell's one particle, along each side"};
+  if (axis == "particles") return {"particles of a cell along each side"};
+  if (axis == "cells") return {"cells"};
+  if (axis == "nu" || axis.ends_with(".nu")) return {"1 − 2ν", [](double nu) { return 1 - 2 * nu; }};
+  return {axis};
+}
+
 bool spans_powers(const std::vector<double>& values) {
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   constexpr double wide = 30;
@@ -45,9 +59,10 @@ std::vector<std::vector<const StabilityLimit*>> curves_of(const reports::Stabili
 std::optional<reports::Figure> stability_figure(const reports::StabilityMap& map) {
   const auto curves = curves_of(map);
   std::vector<double> across, up;
+  const auto [label, number_of] = across_of(map.axis);
   for (const auto& curve : curves)
     for (const StabilityLimit* one : curve) {
-      across.push_back(*one->at);
+      across.push_back(number_of(*one->at));
       if (one->limit()) up.push_back(*one->limit());
     }
   if (up.empty() || std::set<double>(across.begin(), across.end()).size() < 2) return {};
@@ -58,11 +73,11 @@ std::optional<reports::Figure> stability_figure(const reports::StabilityMap& map
       "{}; largest {} at which small random motions about rest do not grow in {} steps, by bisection to 0.1 %",
       map.case_id, map.number, map.steps));
   figure.looks = looks();
-  figure.x_label = map.axis;
+  figure.x_label = label;
   figure.y_label = map.number;
   figure.x_powers = spans_powers(across);
   figure.y_powers = spans_powers(up);
-  const auto x_of = [&](double value) { return figure.x_powers ? std::log10(value) : value; };
+  const auto x_of = [&](double number) { return figure.x_powers ? std::log10(number) : number; };
   const auto y_of = [&](double value) { return figure.y_powers ? std::log10(value) : value; };
   reports::Figure::Series theory{"theory", "exact", {}};
   std::vector<reports::Figure::Series> found;
@@ -72,13 +87,13 @@ std::optional<reports::Figure> stability_figure(const reports::StabilityMap& map
     reports::Figure::Series series{curve.front()->setting, kind_of_method(method), {}};
     for (const StabilityLimit* one : curve) {
       if (const auto limit = one->limit()) {
-        series.curve.x.push_back(x_of(*one->at));
+        series.curve.x.push_back(x_of(number_of(*one->at)));
         series.curve.y.push_back(y_of(*limit));
       } else {
         ++missing;
       }
       if (one->theory) {
-        theory.curve.x.push_back(x_of(*one->at));
+        theory.curve.x.push_back(x_of(number_of(*one->at)));
         theory.curve.y.push_back(y_of(*one->theory));
       }
     }
