@@ -10,10 +10,11 @@ namespace diptych::reports {
 
 /// The limit of one setting, found by bisection.
 struct StabilityLimit {
-  std::string label;               ///< "mpm-musl N=40 ppc=1 c1=0.5"
-  std::string setting;             ///< the label less the value of the map's axis: what a curve has in common
-  std::string method;              ///< "fem", "mpm-musl"
-  std::optional<double> at;        ///< the value of the map's axis
+  std::string label;         ///< "mpm-musl N=40 ppc=1 c1=0.5"
+  std::string setting;       ///< the label less the value of the map's axis: what a curve has in common
+  std::string method;        ///< "fem", "mpm-musl"
+  std::string scene;         ///< "plane-stress c1=0.5": variant and parameters less the value of the axis; of one panel
+  std::optional<double> at;  ///< the value of the map's axis
   std::optional<double> stable;    ///< the largest number seen not to grow; none: grows at the smallest tried
   std::optional<double> unstable;  ///< the smallest seen to grow or refused; none: stable at the largest tried
   std::optional<double> growth_below, growth_above;  ///< of amplitudes, per step, at these two

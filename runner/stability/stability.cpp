@@ -199,11 +199,17 @@ std::string without_axis(const std::string& label, const std::string& axis) {
   return listed(kept, " ");
 }
 
-std::string label_of_setting(const Case& c, const Leaf& leaf) {
+void name(const std::string& axis, Setting& setting) {
+  const reports::Run run = describe(*setting.whole, setting.leaf);
   Names kept;
-  for (const std::string& word : words_between_spaces(describe(c, leaf).label()))
+  for (const std::string& word : words_between_spaces(run.label()))
     if (!word.starts_with("C=")) kept.push_back(word);
-  return listed(kept, " ");
+  reports::StabilityLimit& limit = setting.limit;
+  limit.label = listed(kept, " ");
+  limit.setting = without_axis(limit.label, axis);
+  limit.method = run.method;
+  limit.scene = without_axis(run.parameters, axis);
+  if (!axis.empty()) limit.at = value_of(axis, setting);
 }
 
 struct Range {
@@ -265,13 +271,7 @@ reports::StabilityMap stability_map(const Case& c, const StabilityPlan& plan) {
     for (const Leaf& leaf : leaves(one)) settings.push_back({&one, leaf, {}});
   }
   const std::string axis = axis_of(settings, plan.over);
-  for (Setting& setting : settings) {
-    reports::StabilityLimit& limit = setting.limit;
-    limit.label = label_of_setting(*setting.whole, setting.leaf);
-    limit.setting = without_axis(limit.label, axis);
-    limit.method = setting.leaf.method;
-    if (!axis.empty()) limit.at = value_of(axis, setting);
-  }
+  for (Setting& setting : settings) name(axis, setting);
   std::mutex telling;
   std::size_t done = 0;
   Threads(plan.threads).for_each(settings.size(), [&](std::size_t k) {

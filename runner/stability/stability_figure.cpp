@@ -3,10 +3,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <set>
 
 #include "runner/draw/figure_runs.hpp"
@@ -22,9 +20,11 @@ using reports::StabilityLimit;
 struct Across {
   std::string label;
   double (*of)(double) = [](double value) { return value; };
+  bool powers = true;  ///< of ten, where values span many
 };
 Across across_of(const std::string& axis) {
-  if (axis == "position") return {"place of a cell's one particle, along each side"};
+  if (axis == "position")
+    return {"place of a cell's one particle, along each side", [](double xi) { return xi; }, false};
   if (axis == "particles") return {"particles of a cell along each side"};
   if (axis == "cells") return {"cells"};
   if (axis == "nu" || axis.ends_with(".nu")) return {"1 − 2ν", [](double nu) { return 1 - 2 * nu; }};
@@ -35,6 +35,11 @@ bool spans_powers(const std::vector<double>& values) {
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   constexpr double wide = 30;
   return *least > 0 && *most > wide * *least;
+}
+
+void add(reports::Curve& curve, double x, double y) {
+  curve.x.push_back(x);
+  curve.y.push_back(y);
 }
 
 /// Settings in the order of first mention, each with its limits in the order of their axis's values.
@@ -59,7 +64,7 @@ std::vector<std::vector<const StabilityLimit*>> curves_of(const reports::Stabili
 std::optional<reports::Figure> stability_figure(const reports::StabilityMap& map) {
   const auto curves = curves_of(map);
   std::vector<double> across, up;
-  const auto [label, number_of] = across_of(map.axis);
+  const auto [label, number_of, powers] = across_of(map.axis);
   for (const auto& curve : curves)
     for (const StabilityLimit* one : curve) {
       across.push_back(number_of(*one->at));
@@ -75,46 +80,47 @@ std::optional<reports::Figure> stability_figure(const reports::StabilityMap& map
   figure.looks = looks();
   figure.x_label = label;
   figure.y_label = map.number;
-  figure.x_powers = spans_powers(across);
+  figure.x_powers = powers && spans_powers(across);
   figure.y_powers = spans_powers(up);
   const auto x_of = [&](double number) { return figure.x_powers ? std::log10(number) : number; };
   const auto y_of = [&](double value) { return figure.y_powers ? std::log10(value) : value; };
-  reports::Figure::Series theory{"theory", "exact", {}};
-  std::vector<reports::Figure::Series> found;
   std::size_t missing = 0;
   for (const auto& curve : curves) {
-    const std::string& method = curve.front()->method;
-    reports::Figure::Series series{curve.front()->setting, kind_of_method(method), {}};
-    for (const StabilityLimit* one : curve) {
-      if (const auto limit = one->limit()) {
-        series.curve.x.push_back(x_of(number_of(*one->at)));
-        series.curve.y.push_back(y_of(*limit));
-      } else {
-        ++missing;
-      }
-      if (one->theory) {
-        theory.curve.x.push_back(x_of(number_of(*one->at)));
-        theory.curve.y.push_back(y_of(*one->theory));
-      }
+    const std::string& scene = curve.front()->scene;
+    const auto same = [&](const reports::Figure::Panel& panel) { return panel.label == scene; };
+    auto panel = std::find_if(figure.panels.begin(), figure.panels.end(), same);
+    if (panel == figure.panels.end()) {
+      figure.panels.push_back({scene, {{"theory", "exact", {}}}});
+      panel = figure.panels.end() - 1;
     }
-    theory.curve.x.push_back(std::numeric_limits<double>::quiet_NaN());
-    theory.curve.y.push_back(std::numeric_limits<double>::quiet_NaN());
-    found.push_back(std::move(series));
+    std::string name = curve.front()->setting;  // the panel says the rest
+    if (!scene.empty() && name.ends_with(' ' + scene)) name.resize(name.size() - scene.size() - 1);
+    reports::Figure::Series series{name, kind_of_method(curve.front()->method), {}};
+    reports::Curve& theory = panel->series.front().curve;
+    for (const StabilityLimit* one : curve) {
+      const double x = x_of(number_of(*one->at));
+      missing += !one->limit();
+      if (const auto limit = one->limit()) add(series.curve, x, y_of(*limit));
+      if (one->theory) add(theory, x, y_of(*one->theory));
+    }
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    if (!theory.x.empty()) add(theory, none, none);  // ends its line
+    panel->series.push_back(std::move(series));
+  }
+  for (reports::Figure::Panel& panel : figure.panels) {
+    if (panel.series.front().curve.x.empty()) panel.series.erase(panel.series.begin());
+    if (panel.label.empty() && figure.panels.size() > 1) panel.label = "as the case stands";
   }
   if (missing > 0)
     figure.notes.push_back(
         fmt::format("{} settings have no limit within {:g} to {:g} and are not drawn", missing, map.least, map.most));
-  reports::Figure::Panel panel;
-  if (std::any_of(theory.curve.y.begin(), theory.curve.y.end(), [](double y) { return std::isfinite(y); }))
-    panel.series.push_back(std::move(theory));
-  for (auto& series : found) panel.series.push_back(std::move(series));
   const auto [left, right] = std::minmax_element(across.begin(), across.end());
   const auto [low, high] = std::minmax_element(up.begin(), up.end());
-  const double margin = 0.04 * (x_of(*right) - x_of(*left));
-  panel.x_range = std::array<double, 2>{x_of(*left) - margin, x_of(*right) + margin};
+  const double x_low = x_of(*left), x_high = x_of(*right), margin = 0.04 * (x_high - x_low);
+  figure.x_min = x_low - margin;
+  figure.x_max = x_high + margin;
   figure.y_min = figure.y_powers ? y_of(*low) - 0.1 : 0;
   figure.y_max = figure.y_powers ? y_of(*high) + 0.1 : 1.15 * *high;
-  figure.panels.push_back(std::move(panel));
   return figure;
 }
 

@@ -8,8 +8,8 @@
 
 namespace diptych::runner {
 
-/// Nothing where the settings have no axis in common with two values or more that have limits. Powers of ten where
-/// values span more than 30.
+/// A panel a scene. Nothing where the settings have no axis in common with two values or more that have limits. Powers
+/// of ten where values span more than 30.
 std::optional<reports::Figure> stability_figure(const reports::StabilityMap&);
 
 }  // namespace diptych::runner

@@ -229,7 +229,7 @@ BOOST_AUTO_TEST_CASE(settings_have_the_value_of_the_axis_that_is_asked_for) {
 
 // A panel whose steps are longer than it says, as a wrong mass or modulus would make them.
 BOOST_AUTO_TEST_CASE(a_solver_whose_limit_is_two_per_cent_off_is_found_out) {
-  Panel off = panel("fem");
+  runner::Panel off = runner::panel("fem");
   off.id = "fem-off";
   off.bars.run = [run = off.bars.run](const Scene& scene, const BarMesh& mesh, Stepping stepping) {
     stepping.time_step *= 1.02;
@@ -312,6 +312,17 @@ BOOST_AUTO_TEST_CASE(the_figure_draws_theory_below_the_points_over_what_is_left_
   BOOST_TEST((drawn[0].kind == "exact" && drawn[1].kind == "fem"));
   BOOST_TEST(drawn[1].curve.x[0] == std::log10(1 - 2 * 0.3), tt::tolerance(1e-12));
   BOOST_TEST(drawn[1].curve.y[0] == 0.5, tt::tolerance(1e-12));
+  StabilityMap two = made_map();
+  for (StabilityLimit limit : made_map().limits) {
+    limit.scene = "plane-stress";
+    limit.setting = "fem N=8 plane-stress";
+    limit.theory = {};
+    two.limits.push_back(limit);
+  }
+  const auto panels = stability_figure(two)->panels;
+  BOOST_REQUIRE(panels.size() == 2u);
+  BOOST_TEST((panels[1].label == "plane-stress" && panels[1].series.size() == 1u));
+  BOOST_TEST(panels[1].series[0].label == "fem N=8");  // looks as it does in the first
   StabilityMap one = made_map();
   one.limits.pop_back();
   BOOST_TEST(!stability_figure(one));
