@@ -21,7 +21,7 @@ std::string limit_words(const StabilityMap& map, const StabilityLimit& one) {
   return one.unstable ? fmt::format("below {:.2g}", *one.unstable) : "error";
 }
 
-std::string csv_of(const std::optional<double>& value) { return value ? csv_number(*value) : ""; }
+std::string csv_or_empty(const std::optional<double>& value) { return value ? csv_number(*value) : ""; }
 
 }  // namespace
 
@@ -74,9 +74,9 @@ std::string stability_csv(const StabilityMap& map) {
                     csv_line({"run", "setting", "method", map.axis.empty() ? "at" : map.axis, "limit", "stable",
                               "unstable", "growth_below", "growth_above", "theory", "ratio", "message"});
   for (const StabilityLimit& one : map.limits)
-    out += csv_line({one.label, one.setting, one.method, csv_of(one.at), csv_of(one.limit()), csv_of(one.stable),
-                     csv_of(one.unstable), csv_of(one.growth_below), csv_of(one.growth_above), csv_of(one.theory),
-                     csv_of(one.ratio()), one.message});
+    out += csv_line({one.label, one.setting, one.method, csv_or_empty(one.at), csv_or_empty(one.limit()),
+                     csv_or_empty(one.stable), csv_or_empty(one.unstable), csv_or_empty(one.growth_below),
+                     csv_or_empty(one.growth_above), csv_or_empty(one.theory), csv_or_empty(one.ratio()), one.message});
   return out;
 }
 

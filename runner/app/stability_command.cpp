@@ -9,6 +9,7 @@
 #include "runner/app/commands.hpp"
 #include "runner/app/provenance.hpp"
 #include "runner/app/showing.hpp"
+#include "runner/input/messages.hpp"
 #include "runner/judge/gates.hpp"
 #include "runner/stability/stability.hpp"
 #include "runner/stability/stability_figure.hpp"

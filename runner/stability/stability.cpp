@@ -7,113 +7,15 @@
 #include <mutex>
 #include <stdexcept>
 
-#include "analytic/plane_discrete.hpp"
 #include "hinge/step/threads.hpp"
 #include "runner/input/messages.hpp"
-#include "runner/input/plate_build.hpp"
-#include "runner/run/built.hpp"
 #include "runner/run/run_leaf.hpp"
-#include "runner/stability/at_rest.hpp"
+#include "runner/stability/about_rest.hpp"
 #include "runner/stability/bracket.hpp"
 #include "runner/trade/over.hpp"
 
 namespace diptych::runner {
 namespace {
-
-/// What the books of each step say that motion and strain hold.
-template <class S, class R>
-std::vector<double> followed_energies(const S&, const R& record) {
-  std::vector<double> energies;
-  for (const LedgerLine& line : record.ledger) energies.push_back(line.kinetic + std::abs(line.strain));
-  return energies;
-}
-
-/// What diffuses has no energy; the sum of squares of its deviations from their mean stands for it.
-std::vector<double> followed_energies(const DiffusionScene&, const PlateRecord& record) {
-  std::vector<double> energies;
-  for (const PlateSnapshot& snapshot : record.snapshots) {
-    double sum = 0, squares = 0;
-    for (const double value : snapshot.concentration) sum += value;
-    const double mean = sum / static_cast<double>(snapshot.concentration.size());
-    for (const double value : snapshot.concentration) squares += (value - mean) * (value - mean);
-    energies.push_back(squares);
-  }
-  return energies;
-}
-
-template <class S>
-constexpr bool has_books = !std::is_same_v<S, DiffusionScene>;
-
-template <class S, class M, class R>
-Growth followed(const LeafScene<S, M, R>& it, double number, long steps, const std::atomic<bool>* cancelled) {
-  constexpr long samples = 200;  // of what has no books
-  const long stride = has_books<S> ? 1 : std::max(1L, steps / samples);
-  Stepping stepping;
-  stepping.time_step = number * it.unit_time_step();
-  stepping.gains = 1e30;  // what is looked at is growth without end, not whether a little is gained
-  stepping.steps = steps;
-  stepping.books = has_books<S> ? Books::lines : Books::off;
-  stepping.cancelled = cancelled;
-  if (!has_books<S>)
-    for (long step = 0; step <= steps; step += stride) stepping.sample_after.push_back(step);
-  const S scene = at_rest(it.scene);
-  const R record = it.solver.run(scene, it.mesh, stepping);
-  if (record.outcome == Outcome::left_grid) throw std::runtime_error(record.message);
-  std::vector<double> energies = followed_energies(scene, record);
-  std::erase_if(energies, [](double energy) { return !std::isfinite(energy); });
-  Growth growth = growth_of(energies, stride, steps);
-  // A million times what was put in, or no numbers any more.
-  if (record.outcome == Outcome::unstable) growth.unstable = true;
-  return growth;
-}
-
-// ---- theory ----
-
-// Cells. Where an end is held the shortest wave is a little longer than two of them, by which the limit is higher: half
-// a per cent for so many.
-constexpr int long_enough = 16;
-
-std::optional<double> theory_of(const BarLeaf& it) {
-  const bool free_end = it.scene.left == Support::free || it.scene.right == Support::free;
-  for (std::size_t bar = 0; bar < it.scene.bars.size(); ++bar)
-    if (cells_of(it.scene, bar, it.mesh.cells) < long_enough) return {};
-  if (it.scene.viscosity && it.scene.viscosity->form != material::Viscosity::Form::linear_quadratic) return {};
-  // Held ends take the weak cell at a free one away.
-  if (!free_end && it.row.particles) return {};
-  return it.predicted_limit();
-}
-
-std::optional<double> theory_of(const PlateLeaf& it) {
-  const auto all = [&](Edge::Support support) {
-    return std::all_of(it.scene.edges.begin(), it.scene.edges.end(),
-                       [&](const Edge& edge) { return edge.support == support; });
-  };
-  const bool free = all(Edge::Support::free), rollers = all(Edge::Support::roller);
-  if (it.scene.pic > 0 || it.scene.viscosity || !(free || rollers)) return {};
-  const auto scheme = plane_discretisation(*it.c.plate, it.leaf, it.asked_time_step());
-  if (!scheme) return {};
-  const analytic::PlaneMedium medium = medium_of(*it.c.plate);
-  constexpr std::size_t most = 100;  // cells; the eigenvalues of more take minutes
-  const diffusion::Grid& grid = it.mesh.grid;
-  if (rollers && std::min(grid.nx, grid.ny) < long_enough) return {};
-  const double limit = rollers                ? analytic::interior_stability_limit(medium, *scheme)
-                       : grid.cells() <= most ? analytic::free_stability_limit(medium, *scheme, grid.nx, grid.ny)
-                                              : analytic::plane_stability_limit(medium, *scheme);
-  return limit / it.unit_time_step();
-}
-
-std::optional<double> theory_of(const DiffusionLeaf& it) {
-  const DiffusivityRange range = range_of(it.scene, it.mesh);
-  const double limit = it.limit();
-  if (it.scene.spread || !(range.largest > 0) || !std::isfinite(limit)) return {};
-  if (it.scene.reading != diffusion::Reading::isotropic) return {};
-  for (int j = 0; j < it.mesh.ny; ++j)
-    for (int i = 0; i < it.mesh.nx; ++i)
-      if (it.scene.diffusivity((i + 0.5) * it.mesh.hx, (j + 0.5) * it.mesh.hy) != range.largest) return {};
-  return limit / it.unit_time_step();
-}
-
-// ---- settings ----
 
 struct Setting {
   const Case* whole;
@@ -161,7 +63,7 @@ std::optional<double> number_after(const std::string& text, const std::string& b
 }
 
 /// The value of an axis that a setting has; nothing where that is no number.
-std::optional<double> value_of(const std::string& axis, const Setting& setting) {
+std::optional<double> axis_value(const std::string& axis, const Setting& setting) {
   const Leaf& leaf = setting.leaf;
   if (axis == "cells") return leaf.cells;
   if (axis == "particles" && !leaf.particles.empty()) return static_cast<double>(leaf.particles.size());
@@ -182,7 +84,7 @@ std::string axis_of(const std::vector<Setting>& settings, const std::vector<std:
   for (const std::string& axis : candidates) {
     std::optional<double> first;
     for (const Setting& setting : settings) {
-      const auto value = value_of(axis, setting);
+      const auto value = axis_value(axis, setting);
       if (value && first && *value != *first) return axis;
       if (!first) first = value;
     }
@@ -199,7 +101,7 @@ std::string without_axis(const std::string& label, const std::string& axis) {
   return listed(kept, " ");
 }
 
-void name(const std::string& axis, Setting& setting) {
+void name_setting(const std::string& axis, Setting& setting) {
   const reports::Run run = describe(*setting.whole, setting.leaf);
   Names kept;
   for (const std::string& word : words_between_spaces(run.label()))
@@ -209,7 +111,7 @@ void name(const std::string& axis, Setting& setting) {
   limit.setting = without_axis(limit.label, axis);
   limit.method = run.method;
   limit.scene = without_axis(run.parameters, axis);
-  if (!axis.empty()) limit.at = value_of(axis, setting);
+  if (!axis.empty()) limit.at = axis_value(axis, setting);
 }
 
 struct Range {
@@ -224,41 +126,27 @@ void find_limit(Setting& setting, const StabilityPlan& plan) {
   const auto c = case_of(*setting.whole, setting.leaf);
   reports::StabilityLimit& found = setting.limit;
   const Range range = range_tried(*c);
-  built(*c, setting.leaf, [&](const auto& it) {
-    found.theory = theory_of(it);
-    std::optional<double> least_growing;
-    const Bracket bracket = bracket_limit(
-        [&](double number) {
-          if (plan.cancelled && *plan.cancelled) return false;
-          try {
-            const Growth growth = followed(it, number, plan.steps, plan.cancelled);
-            if (!growth.unstable)
-              found.growth_below = growth.rate;  // the brackets' ends only move towards each other
-            else
-              found.growth_above = growth.rate;
-            return !growth.unstable;
-          } catch (const std::invalid_argument& refusal) {
-            found.growth_above.reset();
-            found.message = fmt::format("at {:g} refused: {}", number, refusal.what());
-            return false;
-          }
-        },
-        range.least, range.most);
-    found.stable = bracket.stable;
-    found.unstable = bracket.unstable;
-    if (found.growth_above) found.message.clear();  // what is refused lies further up
-  });
+  found.theory = limit_about_rest(*c, setting.leaf);
+  const auto stable = [&](double number) {
+    if (plan.cancelled && *plan.cancelled) return false;
+    try {
+      const Growth growth = growth_about_rest(*c, setting.leaf, number, plan.steps, plan.cancelled);
+      // The bracket's ends only move towards each other: what was seen last is of the nearest.
+      (growth.unstable ? found.growth_above : found.growth_below) = growth.rate;
+      if (growth.unstable) found.message.clear();
+      return !growth.unstable;
+    } catch (const std::invalid_argument& refusal) {
+      found.growth_above.reset();
+      found.message = fmt::format("at {:g} refused: {}", number, refusal.what());
+      return false;
+    }
+  };
+  const Bracket bracket = bracket_limit(stable, range.least, range.most);
+  found.stable = bracket.stable;
+  found.unstable = bracket.unstable;
 }
 
 }  // namespace
-
-Growth growth_about_rest(const Case& c, const Leaf& leaf, double number, long steps) {
-  return built(c, leaf, [&](const auto& it) { return followed(it, number, steps, nullptr); });
-}
-
-std::optional<double> limit_about_rest(const Case& c, const Leaf& leaf) {
-  return built(c, leaf, [&](const auto& it) { return theory_of(it); });
-}
 
 reports::StabilityMap stability_map(const Case& c, const StabilityPlan& plan) {
   for (const std::string& text : plan.over)
@@ -271,7 +159,7 @@ reports::StabilityMap stability_map(const Case& c, const StabilityPlan& plan) {
     for (const Leaf& leaf : leaves(one)) settings.push_back({&one, leaf, {}});
   }
   const std::string axis = axis_of(settings, plan.over);
-  for (Setting& setting : settings) name(axis, setting);
+  for (Setting& setting : settings) name_setting(axis, setting);
   std::mutex telling;
   std::size_t done = 0;
   Threads(plan.threads).for_each(settings.size(), [&](std::size_t k) {

@@ -37,7 +37,7 @@ bool spans_powers(const std::vector<double>& values) {
   return *least > 0 && *most > wide * *least;
 }
 
-void add(reports::Curve& curve, double x, double y) {
+void add_at(reports::Curve& curve, double x, double y) {
   curve.x.push_back(x);
   curve.y.push_back(y);
 }
@@ -100,11 +100,11 @@ std::optional<reports::Figure> stability_figure(const reports::StabilityMap& map
     for (const StabilityLimit* one : curve) {
       const double x = x_of(number_of(*one->at));
       missing += !one->limit();
-      if (const auto limit = one->limit()) add(series.curve, x, y_of(*limit));
-      if (one->theory) add(theory, x, y_of(*one->theory));
+      if (const auto limit = one->limit()) add_at(series.curve, x, y_of(*limit));
+      if (one->theory) add_at(theory, x, y_of(*one->theory));
     }
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    if (!theory.x.empty()) add(theory, none, none);  // ends its line
+    if (!theory.x.empty()) add_at(theory, none, none);  // ends its line
     panel->series.push_back(std::move(series));
   }
   for (reports::Figure::Panel& panel : figure.panels) {

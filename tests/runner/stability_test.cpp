@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
-#include <numbers>
+#include <map>
 
 #include "reports/stability_table.hpp"
 #include "runner/app/case_file.hpp"
-#include "runner/input/plate_build.hpp"
+#include "runner/app/catalogue.hpp"
+#include "runner/input/leaf.hpp"
 #include "runner/panel.hpp"
+#include "runner/stability/about_rest.hpp"
 #include "runner/stability/at_rest.hpp"
 #include "runner/stability/bracket.hpp"
 #include "runner/stability/stability_figure.hpp"
@@ -280,6 +282,26 @@ BOOST_AUTO_TEST_CASE(forward_euler_of_diffusion_is_refused_at_its_limit_and_othe
     const StabilityMap map = found(diffusion_case(scheme));
     BOOST_TEST((map.limits[0].stable && !map.limits[0].unstable), scheme << ": " << map.limits[0].message);
     BOOST_TEST(holds(reports::stability_text(map, 0.01), "none to 64"));
+  }
+}
+
+// No closed form is known: the trend is what can be judged. A step of MUSL that takes more of its velocities from the
+// grid bears less, and one of USL more; what remains of FLIP's own limit is that of none of it.
+BOOST_AUTO_TEST_CASE(the_more_of_pic_the_less_bears_musl_and_the_more_usl) {
+  const StabilityMap map = found(select_cases({"plate.pic"}).at(0), {"model.pic=1e-6,0.3,0.7,1"});
+  BOOST_TEST(map.axis == "model.pic");
+  std::map<std::string, std::vector<double>> limits;
+  for (const StabilityLimit& one : map.limits) {
+    BOOST_REQUIRE_MESSAGE(one.limit().has_value(), one.label << ": " << one.message);
+    BOOST_TEST(!one.theory);
+    limits[one.method].push_back(*one.limit());
+  }
+  const auto& usl = limits.at("mpm-usl");
+  BOOST_TEST(limits.size() == 3u);
+  for (std::size_t i = 1; i < usl.size(); ++i) {
+    BOOST_TEST(limits.at("mpm-musl")[i] < 0.99 * limits.at("mpm-musl")[i - 1]);
+    BOOST_TEST(limits.at("mpm-usf")[i] < 0.99 * limits.at("mpm-usf")[i - 1]);
+    BOOST_TEST(usl[i] > 1.005 * usl[i - 1]);
   }
 }
 
