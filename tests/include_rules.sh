@@ -35,6 +35,7 @@ only runner/draw 'hinge|analytic|reports|runner/(input|compare|draw|panel|regist
 # A case is read anew with a key of its file changed.
 only runner/trade 'hinge|analytic|reports|runner/(input|compare|run|draw|trade|panel|app/case_file)'
 only runner/stability 'hinge|analytic|reports|runner/(input|run|draw|trade|stability|panel|diffusion_alone)'
+only runner/ablate 'hinge|analytic|reports|runner/(input|compare|run|trade|ablate|panel|app/case_file)'
 only runner/app 'hinge|analytic|reports|runner'
 echo "$looked files"
 exit "$broken"

@@ -31,6 +31,7 @@ struct Options {
   std::string error;              ///< pick: at most, "1%"
   std::optional<double> seconds;  ///< pick: at most
   std::string memory;             ///< pick: at most, "1G"
+  int cells = 0;                  ///< ablate: of the mesh on which is compared; 0: as fine as is cheap
   std::vector<std::string> methods;           ///< bench: ids of panels; empty: FEM and MPM, MUSL
   std::vector<double> points{1e4, 1e5, 1e6};  ///< bench: about so many elements or particles
   std::vector<int> counts;                    ///< bench: numbers of threads; empty: one, and all there are
@@ -46,6 +47,7 @@ int explain_command(const Options&, const std::atomic<bool>& cancelled);
 int trade_command(const Options&, const std::atomic<bool>& cancelled);
 int pick_command(const Options&, const std::atomic<bool>& cancelled);
 int bench_command(const Options&, const std::atomic<bool>& cancelled);
+int ablate_command(const Options&, const std::atomic<bool>& cancelled);
 std::string bench_footer();  ///< of its help: an example, and the scenes that there are
 int stability_command(const Options&, const std::atomic<bool>& cancelled);
 int list_command(const Options&);

@@ -134,6 +134,25 @@ int main(int argc, char** argv) {
   stability->footer("Example: diptych stability plate.stability --over material.nu=0.3,0.49,0.4999,0.4999999999");
   stability->callback([&] { status = stability_command(options, cancelled); });
 
+  auto* ablate =
+      app.add_subcommand("ablate", "what each feature of a case is worth beside how uncertain its numbers are");
+  add_cases(ablate, true);
+  ablate->add_option("--scene", options.scene,
+                     "variant and swept parameters, as runs are labelled; the first without it");
+  ablate->add_option("--cells", options.cells, "of the mesh on which is compared; as fine as is cheap without it")
+      ->check(CLI::Range(1, 1'000'000));
+  int rounds = 0;
+  ablate->add_option("--rounds", rounds, "in which the compared runs are timed; 0: not at all")
+      ->check(CLI::Range(0, 1000))
+      ->capture_default_str();
+  add_out(ablate);
+  add_threads(ablate);
+  ablate->footer("Example: diptych ablate impact.hardening --cells 100");
+  ablate->callback([&] {
+    options.rounds = rounds;
+    status = ablate_command(options, cancelled);
+  });
+
   auto* bench = app.add_subcommand("bench", "how quick the solvers' loops are, beside what the memory gives");
   bench->add_option("SCENE", options.selectors, "of those below; all without one");
   bench

@@ -1,0 +1,66 @@
+// What becomes of a scene when something is taken off it or added to it, as plain data.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "reports/trade_results.hpp"
+
+namespace diptych::reports {
+
+/// A number or a field of a scene, as the scene stands and as changed.
+struct AblatedQuantity {
+  std::string quantity;           ///< "probe.tip", "contact.duration"; of a field "stress"
+  double time = std::nan("");     ///< the sample time [the case's unit of time]; NaN: of the whole run
+  bool field = false;             ///< then `stands` and `changed` are its L2 errors, where an exact solution is known
+  double stands = std::nan("");   ///< NaN: there is none
+  double changed = std::nan("");  ///< NaN: there is none
+  double scale = 1;               ///< what the next two are parts of, > 0
+  double change = std::nan("");   ///< ≥ 0; of a field the L2 norm of the difference; NaN: one of the two is missing
+  double uncertainty = std::nan("");  ///< of the scene as it stands, on this mesh; NaN: not known
+  std::string known_by;               ///< "exact", "4 meshes", "2 meshes": what says how uncertain it is
+
+  /// The change in units of the uncertainty; NaN where one is not known. Below round-off nothing is certain.
+  double times() const { return change <= round_off ? 0 : change / std::max(uncertainty, round_off); }
+  static constexpr double round_off = 1e-12;
+};
+
+/// One feature taken off, or one thing added that the scene lacks, in one setting of the case.
+struct Ablation {
+  std::string part;            ///< "viscosity"
+  std::string says;            ///< what was changed: "[viscosity] taken out"
+  bool added = false;          ///< to the scene, which lacks it; else taken off
+  std::string run;             ///< label of the run as the scene stands
+  std::string status;          ///< "completed"; or why there is nothing to compare: "unstable", "refused", "kept", ...
+  std::string message;         ///< more of that
+  TradePoint stands, changed;  ///< what both runs cost
+  std::vector<AblatedQuantity> quantities;
+
+  bool completed() const { return status == "completed"; }
+};
+
+/// What an ablation says of its part.
+enum class Need {
+  required,       ///< some quantity changes by more than its uncertainty
+  not_required,   ///< all uncertainties are known, and none is exceeded
+  no_difference,  ///< nothing changes by more than round-off
+  not_known,      ///< something changes and it is not known how uncertain it is, or there is nothing to compare
+  not_run         ///< the changed scene did not complete, or there is none
+};
+
+struct Ruling {
+  Need need = Need::not_run;
+  const AblatedQuantity* most = nullptr;  ///< that changes most, by its uncertainty; null where none is known
+};
+Ruling ruling_of(const Ablation&);
+
+/// All that was tried on a case.
+struct AblationStudy {
+  std::string case_id, title, time_unit;
+  std::vector<std::string> notes;  ///< which mesh of how many, and why
+  std::vector<Ablation> tried;     ///< what was taken off, then what was added
+};
+
+}  // namespace diptych::reports

@@ -1,0 +1,268 @@
+#include "reports/ablation_table.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "reports/csv.hpp"
+#include "reports/json.hpp"
+#include "reports/text.hpp"
+#include "reports/trade_table.hpp"
+
+namespace diptych::reports {
+namespace {
+
+constexpr std::size_t text_width = 120;
+
+std::string number_or_dash(double value, const char* format = "{:.4g}") {
+  return std::isnan(value) ? "-" : fmt::format(fmt::runtime(format), value);
+}
+
+/// Of the scale, in percent.
+std::string part_words(double value) {
+  if (std::isnan(value)) return "-";
+  if (value <= AblatedQuantity::round_off) return "0";
+  return fmt::format("{:.2g} %", 100 * value);
+}
+
+std::string times_words(double times) {
+  return std::isnan(times) ? "-" : times > 9999 ? ">9999" : times == 0 ? "0" : fmt::format("{:.2g}", times);
+}
+
+std::string padded(const std::string& text, std::size_t width, bool right) {
+  const std::size_t own = characters(text);
+  const std::string space(own < width ? width - own : 0, ' ');
+  return right ? space + text : text + space;
+}
+
+/// Text in lines of at most so many characters, all but the first with so many spaces before them.
+std::string folded(const std::string& text, std::size_t indent) {
+  std::string out, line;
+  std::size_t room = text_width;
+  for (std::size_t from = 0; from <= text.size();) {
+    const std::size_t end = std::min(text.find(' ', from), text.size());
+    const std::string word = text.substr(from, end - from);
+    if (!line.empty() && characters(line) + 1 + characters(word) > room) {
+      out += line + '\n' + std::string(indent, ' ');
+      room = text_width - indent;
+      line = word;
+    } else {
+      line += (line.empty() && from == 0 ? "" : " ") + word;
+    }
+    from = end + 1;
+  }
+  return out + line + '\n';
+}
+
+/// The one of each quantity that changes most by its uncertainty; where that is not known, that changes most.
+std::vector<const AblatedQuantity*> most_of_each(const Ablation& ablation) {
+  std::vector<const AblatedQuantity*> rows;
+  const auto more = [](const AblatedQuantity& a, const AblatedQuantity& b) {
+    if (std::isnan(a.times()) != std::isnan(b.times())) return std::isnan(b.times());
+    if (std::isnan(a.times())) return a.change > b.change || (std::isnan(b.change) && !std::isnan(a.change));
+    return a.times() > b.times();
+  };
+  for (const AblatedQuantity& one : ablation.quantities) {
+    const auto own = std::find_if(rows.begin(), rows.end(),
+                                  [&](const AblatedQuantity* row) { return row->quantity == one.quantity; });
+    if (own == rows.end())
+      rows.push_back(&one);
+    else if (more(one, **own))
+      *own = &one;
+  }
+  return rows;
+}
+
+std::string where_words(const AblatedQuantity& one, const std::string& unit) {
+  return one.quantity + (std::isnan(one.time) ? "" : fmt::format(" at t = {:g} {}", one.time, unit));
+}
+
+std::string cost_words_of(const Ablation& one) {
+  const double work = one.stands.work() > 0 ? one.changed.work() / one.stands.work() : std::nan("");
+  std::string text = std::isnan(work) ? "" : fmt::format("{:.3g} of the updates", work);
+  if (one.stands.timed.rounds > 0 && one.changed.timed.rounds > 0)
+    text += fmt::format(", {:.3g} of the seconds ({} against {})", one.changed.timed.seconds / one.stands.timed.seconds,
+                        time_words(one.changed.timed, " s"), time_words(one.stands.timed, " s"));
+  return text;
+}
+
+/// Of the field that changes most: "; the L2 error of stress at t = 0.5 L/c goes from 1 % to 3 %".
+std::string error_words_of(const Ablation& one, const std::string& unit) {
+  const AblatedQuantity* most = nullptr;
+  for (const AblatedQuantity& q : one.quantities)
+    if (q.field && !std::isnan(q.stands) && !std::isnan(q.changed) && !std::isnan(q.times()) &&
+        (!most || q.times() > most->times()))
+      most = &q;
+  if (!most) return "";
+  return fmt::format("; the L2 error of {} goes from {} to {}", where_words(*most, unit), part_words(most->stands),
+                     part_words(most->changed));
+}
+
+std::string verdict_words(const Ablation& one, const std::string& unit) {
+  const Ruling ruling = ruling_of(one);
+  const std::string cost = cost_words_of(one), paid = cost.empty() ? "" : "; " + cost;
+  const auto most = [&] {
+    return fmt::format("{} changes by {}, {} times its uncertainty{}{}", where_words(*ruling.most, unit),
+                       part_words(ruling.most->change), times_words(ruling.most->times()), error_words_of(one, unit),
+                       paid);
+  };
+  switch (ruling.need) {
+    case Need::required: return (one.added ? "LACKING: " : "required: ") + most();
+    case Need::not_required:
+      return std::string(one.added ? "not noticed" : "NOT REQUIRED HERE") + ": what changes most, " + most();
+    case Need::no_difference:
+      return std::string(one.added ? "not noticed" : "NOT REQUIRED HERE") + ": nothing changes" + paid;
+    case Need::not_known: return "not known: something changes, and how uncertain it is takes more meshes" + paid;
+    case Need::not_run: break;
+  }
+  return one.status + (one.message.empty() ? "" : ": " + one.message);
+}
+
+std::string table_of(const Ablation& one, const std::string& unit) {
+  std::string out =
+      folded(fmt::format("{}: {} {}: {}", one.run, one.added ? "with" : "without", one.part, one.says), 4);
+  const std::vector<const AblatedQuantity*> rows = most_of_each(one);
+  std::size_t widest = 8;
+  for (const AblatedQuantity* row : rows) widest = std::max(widest, characters(row->quantity));
+  const auto line = [&](const std::string& quantity, const std::vector<std::string>& cells, const std::string& last) {
+    out += "    " + padded(quantity, widest, false);
+    for (const std::string& cell : cells) out += padded(cell, 13, true);
+    out += "  " + last + '\n';
+  };
+  line("quantity",
+       {"t [" + unit + "]", "as it stands", one.added ? "with" : "without", "change", "uncertainty", "times"},
+       "known by");
+  for (const AblatedQuantity* row : rows) {
+    const auto value = [&](double number) { return row->field ? part_words(number) : number_or_dash(number); };
+    line(row->quantity,
+         {number_or_dash(row->time), value(row->stands), value(row->changed), part_words(row->change),
+          part_words(row->uncertainty), times_words(row->times())},
+         row->known_by.empty() ? "-" : row->known_by);
+  }
+  return out + '\n';
+}
+
+}  // namespace
+
+std::string ablation_text(const AblationStudy& study) {
+  std::string out = fmt::format("{}: {}\n", study.case_id, study.title);
+  for (const std::string& note : study.notes) out += folded("  " + note, 4);
+  out += '\n';
+  std::size_t widest = 0;
+  bool any = false;
+  for (const Ablation& one : study.tried) {
+    widest = std::max(widest, characters(one.part));
+    if (!one.completed()) continue;
+    out += table_of(one, study.time_unit);
+    any = true;
+  }
+  if (any)
+    out += folded(
+               "change, uncertainty: parts of the quantity's largest value or of the exact solution's scale; of a "
+               "field the L2 norm of the difference, and its L2 error where it is known; of each quantity the time "
+               "at which it changes most by its uncertainty; times: change over uncertainty",
+               0) +
+           '\n';
+  for (const bool added : {false, true}) {
+    std::string run;
+    for (const Ablation& one : study.tried) {
+      if (one.added != added) continue;
+      if (one.run != run) {
+        run = one.run;
+        out += (added ? "what it lacks and its result might notice, " : "what it declares, ") + run + '\n';
+      }
+      out += folded("  " + padded(one.part, widest, false) + "  " + verdict_words(one, study.time_unit), widest + 4);
+    }
+  }
+  return out;
+}
+
+std::string ablation_csv(const AblationStudy& study) {
+  std::string out = csv_note("case", study.case_id) + csv_note("title", study.title) +
+                    csv_note("tried", "off: taken off the scene; added: to it") +
+                    csv_note("stands, changed",
+                             "the quantity as the scene stands and as changed; of a field its L2 "
+                             "error, part of the scale, where the exact solution is known") +
+                    csv_note("change, uncertainty", "parts of the scale; of a field the L2 norm of the difference") +
+                    csv_line({"run", "part", "tried", "says", "status", "message", "updates_stands", "updates_changed",
+                              "seconds_stands", "seconds_changed", "quantity", "time_" + study.time_unit, "field",
+                              "stands", "changed", "scale", "change", "uncertainty", "known_by"});
+  for (const Ablation& one : study.tried) {
+    const auto seconds = [](const TradePoint& point) {
+      return point.timed.rounds > 0 ? csv_number(point.timed.seconds) : "";
+    };
+    const std::vector<std::string> head{one.run,
+                                        one.part,
+                                        one.added ? "added" : "off",
+                                        one.says,
+                                        one.status,
+                                        one.message,
+                                        csv_number(one.stands.work()),
+                                        csv_number(one.changed.work()),
+                                        seconds(one.stands),
+                                        seconds(one.changed)};
+    const auto number = [](double value) { return std::isnan(value) ? "" : csv_number(value); };
+    for (const AblatedQuantity& q : one.quantities) {
+      std::vector<std::string> cells = head;
+      cells.insert(cells.end(), {q.quantity, number(q.time), q.field ? "1" : "0", number(q.stands), number(q.changed),
+                                 number(q.scale), number(q.change), number(q.uncertainty), q.known_by});
+      out += csv_line(cells);
+    }
+    if (!one.quantities.empty()) continue;
+    std::vector<std::string> cells = head;
+    cells.resize(cells.size() + 9);
+    out += csv_line(cells);
+  }
+  return out;
+}
+
+std::string ablation_json(const AblationStudy& study, const Provenance& made_by) {
+  const auto name_of = [](Need need) {
+    switch (need) {
+      case Need::required: return "required";
+      case Need::not_required: return "not required";
+      case Need::no_difference: return "no difference";
+      case Need::not_known: return "not known";
+      case Need::not_run: break;
+    }
+    return "not run";
+  };
+  Json all{{"type", "ablation"},
+           {"case", study.case_id},
+           {"title", study.title},
+           {"time_unit", study.time_unit},
+           {"notes", study.notes}};
+  all["tried"] = Json::array();
+  for (const Ablation& one : study.tried) {
+    Json item{{"run", one.run},
+              {"part", one.part},
+              {"added", one.added},
+              {"says", one.says},
+              {"status", one.status},
+              {"message", one.message},
+              {"verdict", name_of(ruling_of(one).need)},
+              {"updates", {one.stands.work(), one.changed.work()}}};
+    if (one.stands.timed.rounds > 0 && one.changed.timed.rounds > 0)
+      item["seconds"] = {one.stands.timed.seconds, one.changed.timed.seconds};
+    item["quantities"] = Json::array();
+    for (const AblatedQuantity& q : one.quantities) {
+      Json row{{"quantity", q.quantity}, {"field", q.field}, {"known_by", q.known_by}};
+      // What is not known is left out.
+      for (const auto& [key, value] : {std::pair{"time", q.time},
+                                       {"stands", q.stands},
+                                       {"changed", q.changed},
+                                       {"scale", q.scale},
+                                       {"change", q.change},
+                                       {"uncertainty", q.uncertainty}})
+        if (std::isfinite(value)) row[key] = value;
+      item["quantities"].push_back(std::move(row));
+    }
+    all["tried"].push_back(std::move(item));
+  }
+  all["env"] = env_of(made_by);
+  return json_line(all);
+}
+
+}  // namespace diptych::reports
