@@ -41,10 +41,16 @@ struct Ablation {
   bool completed() const { return status == "completed"; }
 };
 
+/// How much a quantity speaks for the part; NaN where it is not known. Above 1 it does: the change is that many times
+/// the uncertainty. Where an exact solution knows the errors of both runs they decide: a change that does not take the
+/// scene farther from it, without the part, speaks 0; of what was added, how many times the error falls, and 0 where it
+/// does not fall by a tenth.
+double weight_of(const AblatedQuantity&, bool added);
+
 /// What an ablation says of its part.
 enum class Need {
-  required,       ///< some quantity changes by more than its uncertainty
-  not_required,   ///< all uncertainties are known, and none is exceeded
+  required,       ///< some quantity speaks for it
+  not_required,   ///< none does, and all uncertainties are known
   no_difference,  ///< nothing changes by more than round-off
   not_known,      ///< something changes and it is not known how uncertain it is, or there is nothing to compare
   not_run         ///< the changed scene did not complete, or there is none
@@ -52,7 +58,10 @@ enum class Need {
 
 struct Ruling {
   Need need = Need::not_run;
-  const AblatedQuantity* most = nullptr;  ///< that changes most, by its uncertainty; null where none is known
+  const AblatedQuantity* most =
+      nullptr;                       ///< that speaks most for it; of several the first that changes most by times()
+  double weight = 0;                 ///< of that
+  int quantities = 0, exceeded = 0;  ///< that could be compared; of these, those that speak for it
 };
 Ruling ruling_of(const Ablation&);
 

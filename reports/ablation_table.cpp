@@ -20,16 +20,19 @@ std::string number_or_dash(double value, const char* format = "{:.4g}") {
   return std::isnan(value) ? "-" : fmt::format(fmt::runtime(format), value);
 }
 
+/// Two digits, and no more than four before the point.
+std::string short_number(double value) {
+  if (value >= 9999.5) return fmt::format("{:.0e}", value);
+  return value >= 9.95 ? fmt::format("{:.0f}", value) : fmt::format("{:.2g}", value);
+}
+
 /// Of the scale, in percent.
 std::string part_words(double value) {
   if (std::isnan(value)) return "-";
-  if (value <= AblatedQuantity::round_off) return "0";
-  return fmt::format("{:.2g} %", 100 * value);
+  return value <= AblatedQuantity::round_off ? "0" : short_number(100 * value) + " %";
 }
 
-std::string times_words(double times) {
-  return std::isnan(times) ? "-" : times > 9999 ? ">9999" : times == 0 ? "0" : fmt::format("{:.2g}", times);
-}
+std::string times_words(double times) { return std::isnan(times) ? "-" : short_number(times); }
 
 std::string padded(const std::string& text, std::size_t width, bool right) {
   const std::size_t own = characters(text);
@@ -79,42 +82,45 @@ std::string where_words(const AblatedQuantity& one, const std::string& unit) {
   return one.quantity + (std::isnan(one.time) ? "" : fmt::format(" at t = {:g} {}", one.time, unit));
 }
 
+/// "as many updates", "1/80 of the updates", "1.5 times the updates".
+std::string ratio_words(double ratio, const char* of) {
+  if (std::abs(ratio - 1) < 5e-3) return fmt::format("as many {}", of);
+  if (ratio < 0.75) return fmt::format("1/{:.3g} of the {}", 1 / ratio, of);
+  return fmt::format("{:.3g} times the {}", ratio, of);
+}
+
 std::string cost_words_of(const Ablation& one) {
-  const double work = one.stands.work() > 0 ? one.changed.work() / one.stands.work() : std::nan("");
-  std::string text = std::isnan(work) ? "" : fmt::format("{:.3g} of the updates", work);
+  std::string text;
+  if (one.stands.work() > 0) text = ratio_words(one.changed.work() / one.stands.work(), "updates");
   if (one.stands.timed.rounds > 0 && one.changed.timed.rounds > 0)
-    text += fmt::format(", {:.3g} of the seconds ({} against {})", one.changed.timed.seconds / one.stands.timed.seconds,
-                        time_words(one.changed.timed, " s"), time_words(one.stands.timed, " s"));
+    text += ", " + ratio_words(one.changed.timed.seconds / one.stands.timed.seconds, "seconds") +
+            fmt::format(" ({} against {})", time_words(one.changed.timed, " s"), time_words(one.stands.timed, " s"));
   return text;
 }
 
-/// Of the field that changes most: "; the L2 error of stress at t = 0.5 L/c goes from 1 % to 3 %".
-std::string error_words_of(const Ablation& one, const std::string& unit) {
-  const AblatedQuantity* most = nullptr;
-  for (const AblatedQuantity& q : one.quantities)
-    if (q.field && !std::isnan(q.stands) && !std::isnan(q.changed) && !std::isnan(q.times()) &&
-        (!most || q.times() > most->times()))
-      most = &q;
-  if (!most) return "";
-  return fmt::format("; the L2 error of {} goes from {} to {}", where_words(*most, unit), part_words(most->stands),
-                     part_words(most->changed));
+/// "its L2 error goes from 1 % to 3 %", where both are known.
+std::string error_words_of(const AblatedQuantity& one) {
+  if (!one.field || std::isnan(one.stands) || std::isnan(one.changed)) return "";
+  return fmt::format(", its error goes from {} to {}", part_words(one.stands), part_words(one.changed));
 }
 
 std::string verdict_words(const Ablation& one, const std::string& unit) {
   const Ruling ruling = ruling_of(one);
   const std::string cost = cost_words_of(one), paid = cost.empty() ? "" : "; " + cost;
   const auto most = [&] {
-    return fmt::format("{} changes by {}, {} times its uncertainty{}{}", where_words(*ruling.most, unit),
-                       part_words(ruling.most->change), times_words(ruling.most->times()), error_words_of(one, unit),
-                       paid);
+    return fmt::format("{} changes by {}, {} times its uncertainty{}", where_words(*ruling.most, unit),
+                       part_words(ruling.most->change), times_words(ruling.most->times()),
+                       error_words_of(*ruling.most));
   };
   switch (ruling.need) {
-    case Need::required: return (one.added ? "LACKING: " : "required: ") + most();
+    case Need::required:
+      return fmt::format("{}{} ({} of {} quantities notice){}", one.added ? "LACKING: " : "required: ", most(),
+                         ruling.exceeded, ruling.quantities, paid);
     case Need::not_required:
-      return std::string(one.added ? "not noticed" : "NOT REQUIRED HERE") + ": what changes most, " + most();
+      return fmt::format("{}: at most, {}{}", one.added ? "not lacking" : "NOT REQUIRED HERE", most(), paid);
     case Need::no_difference:
-      return std::string(one.added ? "not noticed" : "NOT REQUIRED HERE") + ": nothing changes" + paid;
-    case Need::not_known: return "not known: something changes, and how uncertain it is takes more meshes" + paid;
+      return fmt::format("{}: nothing changes{}", one.added ? "not lacking" : "NOT REQUIRED HERE", paid);
+    case Need::not_known: return "not known: something changes, and how uncertain it is takes another mesh" + paid;
     case Need::not_run: break;
   }
   return one.status + (one.message.empty() ? "" : ": " + one.message);
@@ -171,7 +177,7 @@ std::string ablation_text(const AblationStudy& study) {
       if (one.added != added) continue;
       if (one.run != run) {
         run = one.run;
-        out += (added ? "what it lacks and its result might notice, " : "what it declares, ") + run + '\n';
+        out += (added ? "added to " : "taken off ") + run + '\n';
       }
       out += folded("  " + padded(one.part, widest, false) + "  " + verdict_words(one, study.time_unit), widest + 4);
     }

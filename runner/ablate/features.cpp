@@ -71,12 +71,11 @@ Revision without_viscosity(const Case&, const Leaf&) {
 }
 
 Revision without_convection(const Case&, const Leaf&) {
-  return {"displacements are infinitesimal: the material stays in its cells",
-          {{"model.displacements", value_in("infinitesimal")}},
-          {"convection"},
-          {},
-          false,
-          ""};
+  return {
+      "displacements are infinitesimal: the material stays in its cells",
+      {{"model.displacements", value_in("infinitesimal")}},
+      {"convection"},
+  };
 }
 
 Revision without_body_force(const Case&, const Leaf&) {

@@ -12,11 +12,13 @@ namespace diptych::runner {
 
 /// Keys of a case's file set otherwise, and what is then no longer, or newly, declared.
 struct Revision {
-  std::string says;             ///< "[viscosity] taken out", for people
-  std::vector<Change> changes;  ///< but for model.features, which follows from the next two
-  Names drops, adds;            ///< features
-  bool another_exact = false;   ///< the case's exact solution is not that of this scene
-  std::string impossible;       ///< why there is no such scene; then the rest means nothing
+  std::string says = {};             ///< "[viscosity] taken out", for people
+  std::vector<Change> changes = {};  ///< but for model.features, which follows from the next two
+  Names drops = {}, adds = {};       ///< features
+  bool another_exact = false;        ///< the case's exact solution is not that of this scene
+  std::string impossible = {};       ///< why there is no such scene; then the rest means nothing
+  double courant = 1;                ///< times the setting's
+  int cells = 0;                     ///< 0: the setting's
 };
 
 /// How a feature is taken off.

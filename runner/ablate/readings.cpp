@@ -52,7 +52,7 @@ PointValues from_array(const reports::VtuPiece& piece, const reports::VtuArray& 
   return field;
 }
 
-/// Points by the square in which they lie, so that the nearest are soon found.
+/// Points by the square in which they lie, so that the nearest are soon found; those of another bar are never near.
 class Near {
  public:
   explicit Near(const PointValues& field) : field_(field) {
@@ -69,11 +69,12 @@ class Near {
   /// Those next to the place, and all that are as near but for a hundredth; none where nothing is near.
   std::vector<std::size_t> to(double x, double y) const {
     constexpr long widest = 8;
+    const auto [i, j] = square(x, y);
     for (long reach = 1; reach <= widest; reach *= 2) {
       std::vector<std::pair<double, std::size_t>> found;
-      const auto [i, j] = square(x, y);
+      const long rows = field_.bars ? 0 : reach;
       for (long a = i - reach; a <= i + reach; ++a) {
-        for (long b = j - reach; b <= j + reach; ++b) {
+        for (long b = j - rows; b <= j + rows; ++b) {
           const auto points = squares_.find({a, b});
           if (points == squares_.end()) continue;
           for (const std::size_t p : points->second)
@@ -94,7 +95,8 @@ class Near {
 
  private:
   std::pair<long, long> square(double x, double y) const {
-    return {std::lround(std::floor(x / side_)), std::lround(std::floor(y / side_))};
+    const auto part = [&](double at) { return std::lround(std::floor(at / side_)); };
+    return {part(x), field_.bars ? std::lround(y) : part(y)};
   }
   const PointValues& field_;
   double side_ = 1;
@@ -214,9 +216,7 @@ std::vector<PointValues> fields_at(const Sample& sample) {
   for (const reports::BarPoints& points : sample.bar_points) {
     for (const auto& [name, values] : points.fields) {
       PointValues field{name, points.x, {}, {values}, {1}, true};
-      double far = 0;  // farther apart than any bar is long
-      for (const double x : points.x) far = std::max(far, 1e3 * std::abs(x));
-      for (const int bar : points.bar) field.y.push_back(far * bar);
+      field.y.assign(points.bar.begin(), points.bar.end());
       all.push_back(std::move(field));
     }
   }
@@ -226,8 +226,12 @@ std::vector<PointValues> fields_at(const Sample& sample) {
   return all;
 }
 
-double distance(const PointValues& a, const PointValues& b) {
+double distance(PointValues a, PointValues b, Axis regardless) {
   if (a.component.size() != b.component.size() || b.x.empty()) return std::nan("");
+  for (PointValues* field : {&a, &b}) {
+    if (regardless == Axis::x) std::fill(field->x.begin(), field->x.end(), 0);
+    if (regardless == Axis::y) std::fill(field->y.begin(), field->y.end(), 0);
+  }
   const bool same_points = a.x == b.x && a.y == b.y;
   const std::optional<Near> near = same_points ? std::nullopt : std::optional<Near>(b);
   double sum = 0, count = 0;
@@ -268,9 +272,10 @@ std::vector<AblatedQuantity> quantities_of(const Case& c, const std::vector<cons
   return all;
 }
 
-void compare(const Case& c, const Run& stands, const Case& other, const Run& changed,
-             std::vector<AblatedQuantity>& quantities) {
-  const std::vector<ReadNumber> numbers = numbers_of(other, changed);
+void compare(const Case& c, const Run& stands, const ChangedRun& other, std::vector<AblatedQuantity>& quantities) {
+  const Run& changed = *other.run;
+  const std::vector<double>& times = other.scene->times;
+  const std::vector<ReadNumber> numbers = numbers_of(*other.scene, changed);
   // Sample times go by their place: those of the changed scene may be written in another unit.
   const auto sample_of = [&](double time) {
     const auto at = std::find(c.times.begin(), c.times.end(), time);
@@ -283,14 +288,13 @@ void compare(const Case& c, const Run& stands, const Case& other, const Run& cha
       const auto before = fields_at(stands.samples[s]), after = fields_at(changed.samples[s]);
       const PointValues *first = field_called(before, one.quantity), *second = field_called(after, one.quantity);
       if (!first || !second) continue;
-      one.change = distance(*first, *second) / one.scale;
-      if (const auto* error = error_of(changed.samples[s], one.quantity))
-        one.changed = error->l2 * error->scale / one.scale;
+      one.change = distance(*first, *second, other.strip) / one.scale;
+      const reports::FieldError* error = error_of(changed.samples[s], one.quantity);
+      if (error && !other.another_exact) one.changed = error->l2 * error->scale / one.scale;
       continue;
     }
     AblatedQuantity as_there = one;
-    if (!std::isnan(one.time) && sample_of(one.time) < other.times.size())
-      as_there.time = other.times[sample_of(one.time)];
+    if (!std::isnan(one.time) && sample_of(one.time) < times.size()) as_there.time = times[sample_of(one.time)];
     if (const ReadNumber* number = number_called(numbers, as_there)) {
       one.changed = number->value;
       one.change = std::abs(one.changed - one.stands) / one.scale;
