@@ -7,16 +7,41 @@ namespace diptych::reports {
 
 double weight_of(const AblatedQuantity& one, bool added) {
   if (one.change <= AblatedQuantity::round_off) return 0;
-  if (one.field && !std::isnan(one.stands) && !std::isnan(one.changed)) {
-    if (!added) return one.changed > one.stands ? one.times() : 0;
-    constexpr double worth_saying = 0.9;
-    return one.changed < worth_saying * one.stands ? one.stands / one.changed : 0;
-  }
+  const bool errors = one.field && !std::isnan(one.stands) && !std::isnan(one.changed);
+  if (!added && errors && one.changed <= one.stands) return 0;
   return one.times();
 }
 
+namespace {
+
+/// An aid is noticed where it takes a tenth off the uncertainties, those of all quantities and times alike.
+Ruling ruling_of_aid(const Ablation& ablation) {
+  Ruling ruling;
+  ruling.need = Need::not_known;
+  double sum = 0, least = 1e300;
+  for (const AblatedQuantity& one : ablation.quantities) {
+    const double left = std::max(one.uncertainty_changed, AblatedQuantity::round_off) /
+                        std::max(one.uncertainty, AblatedQuantity::round_off);
+    if (std::isnan(one.uncertainty) || std::isnan(one.uncertainty_changed)) continue;
+    ++ruling.quantities;
+    if (left < 1) ++ruling.exceeded;
+    sum += std::log(left);
+    if (left >= least) continue;
+    least = left;
+    ruling.most = &one;
+  }
+  if (ruling.quantities == 0) return ruling;
+  ruling.left = std::exp(sum / ruling.quantities);
+  constexpr double worth_saying = 0.9;
+  ruling.need = ruling.left < worth_saying ? Need::required : Need::not_required;
+  return ruling;
+}
+
+}  // namespace
+
 Ruling ruling_of(const Ablation& ablation) {
   if (!ablation.completed()) return {};
+  if (ablation.aid) return ruling_of_aid(ablation);
   Ruling ruling;
   ruling.need = Need::not_known;
   bool changes = false, open = false;

@@ -19,8 +19,9 @@ struct AblatedQuantity {
   double changed = std::nan("");  ///< NaN: there is none
   double scale = 1;               ///< what the next two are parts of, > 0
   double change = std::nan("");   ///< ≥ 0; of a field the L2 norm of the difference; NaN: one of the two is missing
-  double uncertainty = std::nan("");  ///< of the scene as it stands, on this mesh; NaN: not known
-  std::string known_by;               ///< "exact", "4 meshes", "2 meshes": what says how uncertain it is
+  double uncertainty = std::nan("");          ///< of the scene as it stands, on this mesh; NaN: not known
+  double uncertainty_changed = std::nan("");  ///< of the changed scene, likewise, where it was run on all meshes
+  std::string known_by;                       ///< "exact", "4 meshes", "2 meshes": what says how uncertain it is
 
   /// The change in units of the uncertainty; NaN where one is not known. Below round-off nothing is certain.
   double times() const { return change <= round_off ? 0 : change / std::max(uncertainty, round_off); }
@@ -31,6 +32,7 @@ struct AblatedQuantity {
 struct Ablation {
   std::string part;            ///< "viscosity"
   std::string says;            ///< what was changed: "[viscosity] taken out"
+  bool aid = false;            ///< of the numbers, not of the scene: it is worth what it takes off the uncertainty
   bool added = false;          ///< to the scene, which lacks it; else taken off
   std::string run;             ///< label of the run as the scene stands
   std::string status;          ///< "completed"; or why there is nothing to compare: "unstable", "refused", "kept", ...
@@ -41,10 +43,9 @@ struct Ablation {
   bool completed() const { return status == "completed"; }
 };
 
-/// How much a quantity speaks for the part; NaN where it is not known. Above 1 it does: the change is that many times
-/// the uncertainty. Where an exact solution knows the errors of both runs they decide: a change that does not take the
-/// scene farther from it, without the part, speaks 0; of what was added, how many times the error falls, and 0 where it
-/// does not fall by a tenth.
+/// How much a quantity speaks for a part; NaN where it is not known. Above 1 it does: the change is that many times the
+/// uncertainty. Where an exact solution knows the errors of both runs, a part that is taken off and leaves the scene no
+/// farther from it speaks 0.
 double weight_of(const AblatedQuantity&, bool added);
 
 /// What an ablation says of its part.
@@ -58,10 +59,12 @@ enum class Need {
 
 struct Ruling {
   Need need = Need::not_run;
-  const AblatedQuantity* most =
-      nullptr;                       ///< that speaks most for it; of several the first that changes most by times()
+  /// That speaks most for it; of several the first that changes most by times(). Of an aid whose uncertainty falls
+  /// most.
+  const AblatedQuantity* most = nullptr;
   double weight = 0;                 ///< of that
   int quantities = 0, exceeded = 0;  ///< that could be compared; of these, those that speak for it
+  double left = std::nan("");        ///< of an aid: what is left of the uncertainties, their geometric mean
 };
 Ruling ruling_of(const Ablation&);
 

@@ -112,14 +112,21 @@ std::string verdict_words(const Ablation& one, const std::string& unit) {
                        part_words(ruling.most->change), times_words(ruling.most->times()),
                        error_words_of(*ruling.most));
   };
+  if (one.aid && ruling.most) {
+    const std::string all = fmt::format(
+        "errors and uncertainties become {:.2g} times as large on average ({} of {} fall); {} from {} to {}",
+        ruling.left, ruling.exceeded, ruling.quantities, where_words(*ruling.most, unit),
+        part_words(ruling.most->uncertainty), part_words(ruling.most->uncertainty_changed));
+    return (ruling.need == Need::required ? "NOTICED: " : "not noticed: ") + all + paid;
+  }
   switch (ruling.need) {
     case Need::required:
-      return fmt::format("{}{} ({} of {} quantities notice){}", one.added ? "LACKING: " : "required: ", most(),
+      return fmt::format("{}{} ({} of {} quantities notice){}", one.added ? "NOTICED: " : "required: ", most(),
                          ruling.exceeded, ruling.quantities, paid);
     case Need::not_required:
-      return fmt::format("{}: at most, {}{}", one.added ? "not lacking" : "NOT REQUIRED HERE", most(), paid);
+      return fmt::format("{}: at most, {}{}", one.added ? "not noticed" : "NOT REQUIRED HERE", most(), paid);
     case Need::no_difference:
-      return fmt::format("{}: nothing changes{}", one.added ? "not lacking" : "NOT REQUIRED HERE", paid);
+      return fmt::format("{}: nothing changes{}", one.added ? "not noticed" : "NOT REQUIRED HERE", paid);
     case Need::not_known: return "not known: something changes, and how uncertain it is takes another mesh" + paid;
     case Need::not_run: break;
   }
@@ -138,13 +145,14 @@ std::string table_of(const Ablation& one, const std::string& unit) {
     out += "  " + last + '\n';
   };
   line("quantity",
-       {"t [" + unit + "]", "as it stands", one.added ? "with" : "without", "change", "uncertainty", "times"},
+       {"t [" + unit + "]", "as it stands", one.added ? "with" : "without", "change", "uncertainty",
+        one.aid ? "with it" : "times"},
        "known by");
   for (const AblatedQuantity* row : rows) {
     const auto value = [&](double number) { return row->field ? part_words(number) : number_or_dash(number); };
     line(row->quantity,
          {number_or_dash(row->time), value(row->stands), value(row->changed), part_words(row->change),
-          part_words(row->uncertainty), times_words(row->times())},
+          part_words(row->uncertainty), one.aid ? part_words(row->uncertainty_changed) : times_words(row->times())},
          row->known_by.empty() ? "-" : row->known_by);
   }
   return out + '\n';
@@ -160,7 +168,7 @@ std::string ablation_text(const AblationStudy& study) {
   bool any = false;
   for (const Ablation& one : study.tried) {
     widest = std::max(widest, characters(one.part));
-    if (!one.completed()) continue;
+    if (!one.completed() || ruling_of(one).need == Need::no_difference) continue;
     out += table_of(one, study.time_unit);
     any = true;
   }
@@ -168,7 +176,8 @@ std::string ablation_text(const AblationStudy& study) {
     out += folded(
                "change, uncertainty: parts of the quantity's largest value or of the exact solution's scale; of a "
                "field the L2 norm of the difference, and its L2 error where it is known; of each quantity the time "
-               "at which it changes most by its uncertainty; times: change over uncertainty",
+               "at which it changes most by its uncertainty; times: change over uncertainty; with it: the uncertainty "
+               "with what was added",
                0) +
            '\n';
   for (const bool added : {false, true}) {
@@ -177,7 +186,7 @@ std::string ablation_text(const AblationStudy& study) {
       if (one.added != added) continue;
       if (one.run != run) {
         run = one.run;
-        out += (added ? "added to " : "taken off ") + run + '\n';
+        out += (added ? "Added, one at a time: " : "Taken off, one at a time: ") + run + '\n';
       }
       out += folded("  " + padded(one.part, widest, false) + "  " + verdict_words(one, study.time_unit), widest + 4);
     }
@@ -192,9 +201,26 @@ std::string ablation_csv(const AblationStudy& study) {
                              "the quantity as the scene stands and as changed; of a field its L2 "
                              "error, part of the scale, where the exact solution is known") +
                     csv_note("change, uncertainty", "parts of the scale; of a field the L2 norm of the difference") +
-                    csv_line({"run", "part", "tried", "says", "status", "message", "updates_stands", "updates_changed",
-                              "seconds_stands", "seconds_changed", "quantity", "time_" + study.time_unit, "field",
-                              "stands", "changed", "scale", "change", "uncertainty", "known_by"});
+                    csv_line({"run",
+                              "part",
+                              "tried",
+                              "says",
+                              "status",
+                              "message",
+                              "updates_stands",
+                              "updates_changed",
+                              "seconds_stands",
+                              "seconds_changed",
+                              "quantity",
+                              "time_" + study.time_unit,
+                              "field",
+                              "stands",
+                              "changed",
+                              "scale",
+                              "change",
+                              "uncertainty",
+                              "uncertainty_changed",
+                              "known_by"});
   for (const Ablation& one : study.tried) {
     const auto seconds = [](const TradePoint& point) {
       return point.timed.rounds > 0 ? csv_number(point.timed.seconds) : "";
@@ -213,12 +239,13 @@ std::string ablation_csv(const AblationStudy& study) {
     for (const AblatedQuantity& q : one.quantities) {
       std::vector<std::string> cells = head;
       cells.insert(cells.end(), {q.quantity, number(q.time), q.field ? "1" : "0", number(q.stands), number(q.changed),
-                                 number(q.scale), number(q.change), number(q.uncertainty), q.known_by});
+                                 number(q.scale), number(q.change), number(q.uncertainty),
+                                 number(q.uncertainty_changed), q.known_by});
       out += csv_line(cells);
     }
     if (!one.quantities.empty()) continue;
     std::vector<std::string> cells = head;
-    cells.resize(cells.size() + 9);
+    cells.resize(cells.size() + 10);
     out += csv_line(cells);
   }
   return out;
@@ -261,7 +288,8 @@ std::string ablation_json(const AblationStudy& study, const Provenance& made_by)
                                        {"changed", q.changed},
                                        {"scale", q.scale},
                                        {"change", q.change},
-                                       {"uncertainty", q.uncertainty}})
+                                       {"uncertainty", q.uncertainty},
+                                       {"uncertainty_changed", q.uncertainty_changed}})
         if (std::isfinite(value)) row[key] = value;
       item["quantities"].push_back(std::move(row));
     }

@@ -20,6 +20,7 @@
 namespace diptych::runner {
 namespace {
 
+using reports::AblatedQuantity;
 using reports::Ablation;
 using reports::AblationStudy;
 
@@ -55,10 +56,11 @@ bool exact_starts_it(const Case& c) {
 
 /// The changed scene at a time step within its limit, by a shorter one where need be.
 Case within_limit(const Case& c, const AblatedSetting& setting, Revision& revision, const std::string& name) {
-  const int cells = revision.cells > 0 ? revision.cells : setting.meshes.back();
-  const auto read = [&] { return revised(c, setting.leaf, {cells}, revision, name); };
+  std::vector<int> meshes{revision.cells > 0 ? revision.cells : setting.meshes.back()};
+  if (revision.aid) meshes = setting.meshes;
+  const auto read = [&] { return revised(c, setting.leaf, meshes, revision, name); };
   Case scene = read();
-  const Leaf leaf = leaves(scene).front();
+  const Leaf leaf = leaves(scene).back();
   const TimeStep step = step_of(*case_of(scene, leaf), leaf);
   if (!(step.asked > step.limit * (1 + round_off))) return scene;
   constexpr double margin = 0.9;  // of a limit that is an estimate with viscosity
@@ -75,6 +77,7 @@ Trial trial_of(const Case& c, const Standing& standing, std::size_t of, const st
   Ablation& one = trial.ablation;
   one.part = part;
   one.added = added;
+  one.aid = revision.aid;
   one.says = revision.says;
   if (!revision.impossible.empty()) {
     one.status = added ? "not tried" : "kept";
@@ -99,6 +102,13 @@ Trial trial_of(const Case& c, const Standing& standing, std::size_t of, const st
   }
   one.status = "refused";
   return trial;
+}
+
+std::vector<const reports::Run*> completed_of(const std::vector<reports::Run>& runs) {
+  std::vector<const reports::Run*> completed;
+  for (const reports::Run& run : runs)
+    if (point_of(run).completed()) completed.push_back(&run);
+  return completed;
 }
 
 /// Runs the trials that have a scene and fills in what they say.
@@ -129,13 +139,14 @@ void run_trials(const std::vector<Standing>& all, const Running& running, std::v
     one.message = one.changed.message;
     if (one.message.starts_with("active features") && one.added) one.message = "it never acts";
     if (!one.completed()) continue;
-    std::vector<const reports::Run*> meshes;
-    for (const reports::Run& run : standing.runs)
-      if (point_of(run).completed()) meshes.push_back(&run);
-    one.quantities = quantities_of(standing.scene, meshes);
+    one.quantities = quantities_of(standing.scene, completed_of(standing.runs));
     compare(standing.scene, standing.finest(),
-            {of_case[k]->scene ? &*of_case[k]->scene : nullptr, &changed, of_case[k]->another_exact, of_case[k]->strip},
-            one.quantities);
+            {&*of_case[k]->scene, &changed, of_case[k]->another_exact, of_case[k]->strip}, one.quantities);
+    if (!one.aid) continue;
+    for (const AblatedQuantity& other : quantities_of(*of_case[k]->scene, completed_of(results[k].runs)))
+      for (AblatedQuantity& own : one.quantities)
+        if (own.quantity == other.quantity && (own.time == other.time || std::isnan(own.time)))
+          own.uncertainty_changed = other.uncertainty * other.scale / own.scale;
   }
 }
 
@@ -197,7 +208,7 @@ void add_trials(const Case& c, const Standing& standing, std::size_t of, std::ve
     const std::string name = axis == Axis::y ? "y" : "x";
     const Variation found = variation_along(axis, run);
     Revision revision = *strip;
-    constexpr double alike = 1e-6;  // of the largest value: round-off of many steps
+    constexpr double alike = 0.05;  // of the largest value: whether a strip does is for its run to say
     if (!(found.part <= alike))
       revision.impossible = fmt::format("the fields vary along {}, {} at t = {:g} {} by {:.2g} % of its largest value",
                                         name, found.field, found.time, c.time_unit, 100 * found.part);

@@ -17,6 +17,7 @@ struct Revision {
   Names drops = {}, adds = {};       ///< features
   bool another_exact = false;        ///< the case's exact solution is not that of this scene
   std::string impossible = {};       ///< why there is no such scene; then the rest means nothing
+  bool aid = false;                  ///< of the numbers alone: run on all meshes, to see how uncertain they are with it
   double courant = 1;                ///< times the setting's
   int cells = 0;                     ///< 0: the setting's
 };

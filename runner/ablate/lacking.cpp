@@ -30,6 +30,7 @@ Asked with_viscosity(const Case& c, const Leaf&) {
   table.push_back({"form", {}, Node{{}, std::string("york")}});
   r.changes = {{"viscosity", Node{{}, std::move(table)}}};
   r.adds = {"viscosity"};
+  r.aid = true;
   return r;
 }
 
@@ -77,10 +78,9 @@ Asked with_finer_step(const Case& c, const Leaf&) {
   Revision r;
   r.says = c.plate->solid ? "half the time step, of waves and of diffusion" : "half the time step";
   r.courant = 0.5;
-  for (const char* key : {"diffusion.drift"}) {
-    if (!c.scene.contains(key)) continue;
+  if (c.scene.contains("diffusion.drift")) {
     r.says += ", and matrices factorised in every step";
-    r.changes.push_back({key, Node{{}, 0.0}});
+    r.changes.push_back({"diffusion.drift", Node{{}, 0.0}});
   }
   return r;
 }
