@@ -14,24 +14,24 @@ double weight_of(const AblatedQuantity& one, bool added) {
 
 namespace {
 
-/// An aid is noticed where it takes a tenth off the uncertainties, those of all quantities and times alike.
+/// An aid is noticed where it takes a tenth off the uncertainties, in the median over all quantities and times.
 Ruling ruling_of_aid(const Ablation& ablation) {
   Ruling ruling;
   ruling.need = Need::not_known;
-  double sum = 0, least = 1e300;
+  std::vector<double> all;
   for (const AblatedQuantity& one : ablation.quantities) {
     const double left = std::max(one.uncertainty_changed, AblatedQuantity::round_off) /
                         std::max(one.uncertainty, AblatedQuantity::round_off);
     if (std::isnan(one.uncertainty) || std::isnan(one.uncertainty_changed)) continue;
     ++ruling.quantities;
     if (left < 1) ++ruling.exceeded;
-    sum += std::log(left);
-    if (left >= least) continue;
-    least = left;
-    ruling.most = &one;
+    if (all.empty() || left < *std::min_element(all.begin(), all.end())) ruling.most = &one;
+    all.push_back(left);
   }
-  if (ruling.quantities == 0) return ruling;
-  ruling.left = std::exp(sum / ruling.quantities);
+  if (all.empty()) return ruling;
+  // The median: one that happens to vanish decides nothing.
+  std::sort(all.begin(), all.end());
+  ruling.left = std::sqrt(all[(all.size() - 1) / 2] * all[all.size() / 2]);
   constexpr double worth_saying = 0.9;
   ruling.need = ruling.left < worth_saying ? Need::required : Need::not_required;
   return ruling;
@@ -40,6 +40,7 @@ Ruling ruling_of_aid(const Ablation& ablation) {
 }  // namespace
 
 Ruling ruling_of(const Ablation& ablation) {
+  if (ablation.status == "idle") return {Need::no_difference};
   if (!ablation.completed()) return {};
   if (ablation.aid) return ruling_of_aid(ablation);
   Ruling ruling;

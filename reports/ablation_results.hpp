@@ -64,7 +64,7 @@ struct Ruling {
   const AblatedQuantity* most = nullptr;
   double weight = 0;                 ///< of that
   int quantities = 0, exceeded = 0;  ///< that could be compared; of these, those that speak for it
-  double left = std::nan("");        ///< of an aid: what is left of the uncertainties, their geometric mean
+  double left = std::nan("");        ///< of an aid: what is left of the uncertainties, the median
 };
 Ruling ruling_of(const Ablation&);
 

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -32,7 +33,7 @@ std::string part_words(double value) {
   return value <= AblatedQuantity::round_off ? "0" : short_number(100 * value) + " %";
 }
 
-std::string times_words(double times) { return std::isnan(times) ? "-" : short_number(times); }
+std::string times_words(double times) { return std::isnan(times) ? "-" : times > 9999 ? ">9999" : short_number(times); }
 
 std::string padded(const std::string& text, std::size_t width, bool right) {
   const std::size_t own = characters(text);
@@ -114,7 +115,8 @@ std::string verdict_words(const Ablation& one, const std::string& unit) {
   };
   if (one.aid && ruling.most) {
     const std::string all = fmt::format(
-        "errors and uncertainties become {:.2g} times as large on average ({} of {} fall); {} from {} to {}",
+        "errors and uncertainties become {:.2g} times as large in the median ({} of {} fall); at best, {} from {} to "
+        "{}",
         ruling.left, ruling.exceeded, ruling.quantities, where_words(*ruling.most, unit),
         part_words(ruling.most->uncertainty), part_words(ruling.most->uncertainty_changed));
     return (ruling.need == Need::required ? "NOTICED: " : "not noticed: ") + all + paid;
@@ -126,7 +128,8 @@ std::string verdict_words(const Ablation& one, const std::string& unit) {
     case Need::not_required:
       return fmt::format("{}: at most, {}{}", one.added ? "not noticed" : "NOT REQUIRED HERE", most(), paid);
     case Need::no_difference:
-      return fmt::format("{}: nothing changes{}", one.added ? "not noticed" : "NOT REQUIRED HERE", paid);
+      if (one.status == "idle") return "not noticed: " + one.message;
+      return fmt::format("{}: {}: nothing changes{}", one.added ? "not noticed" : "NOT REQUIRED HERE", one.says, paid);
     case Need::not_known: return "not known: something changes, and how uncertain it is takes another mesh" + paid;
     case Need::not_run: break;
   }
@@ -156,6 +159,33 @@ std::string table_of(const Ablation& one, const std::string& unit) {
          row->known_by.empty() ? "-" : row->known_by);
   }
   return out + '\n';
+}
+
+/// What all runs together say: a part is required, or noticed, where one run says so.
+std::string summary_of(const AblationStudy& study, bool added) {
+  std::array<std::vector<std::string>, 4> parts;  // yes, no, there is no such scene, not told
+  for (const Ablation& part : study.tried) {
+    if (part.added != added) continue;
+    bool yes = false, no = false, none = true;
+    for (const Ablation& one : study.tried) {
+      if (one.added != added || one.part != part.part) continue;
+      const Need need = ruling_of(one).need;
+      yes = yes || need == Need::required;
+      no = no || need == Need::not_required || need == Need::no_difference;
+      none = none && (one.status == "kept" || one.status == "not tried" || one.status == "refused");
+    }
+    std::vector<std::string>& names = parts[yes ? 0 : no ? 1 : none ? 2 : 3];
+    if (std::find(names.begin(), names.end(), part.part) == names.end()) names.push_back(part.part);
+  }
+  const auto list = [](const std::vector<std::string>& names) {
+    std::string all;
+    for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
+    return all.empty() ? "nothing" : all;
+  };
+  return folded(fmt::format("{}: {}; {}: {}; {}: {}; not known: {}", added ? "Its result would notice" : "Required",
+                            list(parts[0]), added ? "would not" : "not required here", list(parts[1]),
+                            added ? "not tried" : "kept", list(parts[2]), list(parts[3])),
+                2);
 }
 
 }  // namespace
@@ -191,7 +221,7 @@ std::string ablation_text(const AblationStudy& study) {
       out += folded("  " + padded(one.part, widest, false) + "  " + verdict_words(one, study.time_unit), widest + 4);
     }
   }
-  return out;
+  return out + summary_of(study, false) + summary_of(study, true);
 }
 
 std::string ablation_csv(const AblationStudy& study) {

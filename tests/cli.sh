@@ -38,6 +38,12 @@ expect 0 'elastic +fem +[0-9]+ +[0-9x]+ +1 +[0-9.]+' "$program" bench elastic --
 expect 0 '"type":"bench","scene":"elastic","method":"mpm-musl"' cat bench.jsonl
 expect 14 'found "elastik"; allowed: .*did you mean "elastic"' "$program" bench elastik
 expect 14 'method: found "femm"; allowed: .*did you mean "fem"' "$program" bench --method femm
+expect 0 'plasticity  required: ' "$program" ablate impact.hardening --out ablated
+expect 0 '^fem N=100 C=0.5,convection,off,.*,completed,' cat ablated/ablate/impact.hardening.csv
+expect 0 '"type":"ablation","case":"impact.hardening"' cat ablated/ablate/impact.hardening.json
+expect 0 'viscosity +NOT REQUIRED HERE: ' "$program" ablate viscosity.front --cells 400 --scene c1=1 --out ablated
+expect 14 '; did you mean "c1=1"' "$program" ablate viscosity.front --scene c1=11 --out ablated
+expect 14 '2 cases; allowed: one' "$program" ablate bar.mode.fixed-free bar.energy
 expect 14 '2 cases; allowed: one' "$program" trade bar.mode.fixed-free bar.energy
 expect 14 'found "plain"; allowed: "", "plane-stress"' "$program" pick plate.s-wave --rounds 0 --error 1% --scene plain
 expect 14 'did you mean "seconds"' "$program" pick bar.mode.fixed-free --error 1% --by second

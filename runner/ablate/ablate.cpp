@@ -69,6 +69,12 @@ Case within_limit(const Case& c, const AblatedSetting& setting, Revision& revisi
   return read();
 }
 
+/// The first line of what is wrong with a file, less its place there: the file on disk has no such line.
+std::string first_reason(const std::string& message, const std::string& path) {
+  const std::string line = message.substr(0, message.find('\n'));
+  return line.starts_with(path + ':') ? line.substr(std::min(line.find(' ') + 1, line.size())) : line;
+}
+
 /// Reads the changed scene: with the exact solution where it is still that of the scene, else without.
 Trial trial_of(const Case& c, const Standing& standing, std::size_t of, const std::string& part, bool added,
                Revision revision) {
@@ -96,8 +102,7 @@ Trial trial_of(const Case& c, const Standing& standing, std::size_t of, const st
       one.says = tried.says;
       return trial;
     } catch (const InputError& problem) {
-      const std::string message = problem.what();
-      if (one.message.empty()) one.message = message.substr(0, message.find('\n'));
+      if (one.message.empty()) one.message = first_reason(problem.what(), c.path.string());
     }
   }
   one.status = "refused";
@@ -137,7 +142,10 @@ void run_trials(const std::vector<Standing>& all, const Running& running, std::v
     }
     one.status = one.changed.status;
     one.message = one.changed.message;
-    if (one.message.starts_with("active features") && one.added) one.message = "it never acts";
+    if (one.message.starts_with("active features") && one.added) {
+      one.status = "idle";
+      one.message = "it never acts";
+    }
     if (!one.completed()) continue;
     one.quantities = quantities_of(standing.scene, completed_of(standing.runs));
     compare(standing.scene, standing.finest(),
@@ -176,6 +184,14 @@ void keep_within(double budget, const Case& c, AblatedSetting& setting, Ablation
 std::vector<Standing> standing_of(const Case& c, const AblationPlan& plan, const Running& running,
                                   AblationStudy& study) {
   std::vector<AblatedSetting> settings = settings_of(c, plan.scene, plan.cells);
+  Names others;
+  for (const Leaf& leaf : leaves(c))
+    if (const std::string scene = parameters_label(leaf);
+        scene != parameters_label(settings.front().leaf) && !contains(others, words(scene)))
+      others.push_back(words(scene));
+  if (plan.scene.empty() && !others.empty())
+    study.notes.push_back(fmt::format("of its scenes the first, {}; with --scene one of {}",
+                                      words(parameters_label(settings.front().leaf)), listed(others)));
   std::vector<Standing> all;
   std::vector<Case> cases;
   for (AblatedSetting& setting : settings) {
@@ -210,7 +226,7 @@ void add_trials(const Case& c, const Standing& standing, std::size_t of, std::ve
     Revision revision = *strip;
     constexpr double alike = 0.05;  // of the largest value: whether a strip does is for its run to say
     if (!(found.part <= alike))
-      revision.impossible = fmt::format("the fields vary along {}, {} at t = {:g} {} by {:.2g} % of its largest value",
+      revision.impossible = fmt::format("the fields vary along {}, {} at t = {:g} {} by {:.3g} % of its largest value",
                                         name, found.field, found.time, c.time_unit, 100 * found.part);
     Trial trial = trial_of(c, standing, of, "cells along " + name, false, revision);
     trial.strip = axis;

@@ -91,8 +91,8 @@ std::optional<Revision> strip_across(Axis axis, const Case& c, const Leaf& leaf)
     if (probe.reads == "total" || probe.reads == "area") {
       r.changes.push_back({key, {}});  // of so many cells less
     } else if (c.scene.contains(key + ".at")) {
-      const double x = rows ? probe.x : std::min(probe.x, grid.hx / 2);
-      const double y = rows ? std::min(probe.y, grid.hy / 2) : probe.y;
+      // On the strip's edge: wherever it stands, nothing varies along it.
+      const double x = rows ? probe.x : 0, y = rows ? 0 : probe.y;
       r.changes.push_back({key + ".at", Node{{}, Node::List{Node{{}, x}, Node{{}, y}}}});
     }
   }

@@ -71,7 +71,7 @@ std::string struck(const std::string& more, const std::string& cells = "40, 80, 
 }
 
 /// Behind the front, where it rings without viscosity.
-const std::string behind = "probes = [{ id = \"behind\", field = \"stress\", at = { value = 0.55, unit = \"L\" } }]\n";
+const std::string behind = "probes = [{ id = \"behind\", field = \"stress\", at = { value = 0.7, unit = \"L\" } }]\n";
 
 AblatedQuantity made(const std::string& name, double change, double uncertainty) {
   AblatedQuantity one;
@@ -156,8 +156,8 @@ BOOST_AUTO_TEST_CASE(everything_tried_is_told) {
   study.tried.back().part = "contact";
   study.tried.back().added = true;
   expect_in(reports::ablation_text(study),
-            {"required: probe.tip at t = 1 L/c changes by 30 %, 1.5 times its uncertainty (1 of 1 quantities notice); "
-             "1/2 of the updates",
+            {"required: probe.tip at t = 1 L/c changes by 30 %, 1.5 times its uncertainty (1 of 1 quantities notice);\n"
+             "              1/2 of the updates",
              "convection  unstable: it grows", "not noticed: at most, probe.tip", "Taken off, one at a time: fem N=10",
              "Added, one at a time: fem N=10"});
   expect_in(reports::ablation_csv(study),
@@ -238,13 +238,6 @@ BOOST_AUTO_TEST_CASE(what_a_scene_lacks_is_asked) {
   BOOST_TEST(!std::isnan(ruling_of(viscosity).left));
   // FEM's mesh goes with the material.
   BOOST_TEST(named(study, "finite displacements").status == "not tried");
-  // A bar that is pulled: viscosity of compression does nothing before the first reflection.
-  const Written pulled(
-      replaced(replaced(plain, "\"elastic\", \"viscosity\"", "\"elastic\""), "traction = -1.0", "traction = 1.0") +
-      end_of_file);
-  const AblationStudy other = pulled.study();
-  const Ablation& idle = named(other, "viscosity");
-  BOOST_TEST((idle.status == "invalid" || ruling_of(idle).need != Need::required), reports::ablation_text(other));
 }
 
 BOOST_AUTO_TEST_CASE(two_bars_that_close_and_never_meet_lack_contact) {
@@ -295,6 +288,8 @@ BOOST_AUTO_TEST_CASE(a_strip_does_for_a_plate_that_does_not_vary_along_a_side) {
   // 4 × 4 cells of 4 triangles, 25 + 16 nodes; a row: 16 triangles, 10 + 4 nodes. Particles: 64 and 25 nodes, 16
   // and 10.
   BOOST_TEST(study.tried[1].changed.work() / study.tried[1].stands.work() == 30.0 / 105, tt::tolerance(1e-12));
+  BOOST_TEST(named(study, "viscosity").status == "idle");  // nothing is compressed
+  expect_in(reports::ablation_text(study), {"not noticed: it never acts", "NOT REQUIRED HERE: a strip of one row of"});
   const Ablation& across = named(study, "cells along x");
   BOOST_TEST(across.status == "kept");
   expect_in(across.message, {"vary along x", "displacement"});
