@@ -113,11 +113,11 @@ std::string verdict_words(const Ablation& one, const std::string& unit) {
                        part_words(ruling.most->change), times_words(ruling.most->times()),
                        error_words_of(*ruling.most));
   };
-  if (one.aid && ruling.most) {
+  if (one.aid && !std::isnan(ruling.left)) {
     const std::string all = fmt::format(
-        "errors and uncertainties become {:.2g} times as large in the median ({} of {} fall); at best, {} from {} to "
+        "errors and uncertainties become {} times as large in the median ({} of {} fall); at best, {} from {} to "
         "{}",
-        ruling.left, ruling.exceeded, ruling.quantities, where_words(*ruling.most, unit),
+        times_words(ruling.left), ruling.exceeded, ruling.quantities, where_words(*ruling.most, unit),
         part_words(ruling.most->uncertainty), part_words(ruling.most->uncertainty_changed));
     return (ruling.need == Need::required ? "NOTICED: " : "not noticed: ") + all + paid;
   }

@@ -124,6 +124,11 @@ void run_trials(const std::vector<Standing>& all, const Running& running, std::v
     trial.ablation.run = all[trial.of].finest().label();
     trial.ablation.stands = point_of(all[trial.of].finest());
     if (!trial.scene) continue;
+    if (!trial.ablation.stands.completed()) {
+      trial.ablation.status = trial.ablation.stands.status == "cancelled" ? "cancelled" : "nothing to compare";
+      trial.ablation.message = "as the scene stands its run is " + trial.ablation.stands.status;
+      continue;
+    }
     cases.push_back(*trial.scene);
     of_case.push_back(&trial);
   }
@@ -134,12 +139,6 @@ void run_trials(const std::vector<Standing>& all, const Running& running, std::v
     const reports::Run& changed = results[k].runs.back();
     one.changed = point_of(changed);
     one.message.clear();
-    if (!one.stands.completed()) {
-      one.status = "nothing to compare";
-      one.message = fmt::format("as the scene stands its run is {}{}{}", one.stands.status,
-                                one.stands.message.empty() ? "" : ": ", one.stands.message);
-      continue;
-    }
     one.status = one.changed.status;
     one.message = one.changed.message;
     if (one.message.starts_with("active features") && one.added) {
@@ -200,7 +199,13 @@ std::vector<Standing> standing_of(const Case& c, const AblationPlan& plan, const
     all.push_back({setting, cases.back(), {}});
   }
   const std::vector<reports::Case> results = run_cases(cases, running);
-  for (std::size_t s = 0; s < all.size(); ++s) all[s].runs = results[s].runs;
+  for (std::size_t s = 0; s < all.size(); ++s) {
+    all[s].runs = results[s].runs;
+    const reports::TradePoint point = point_of(all[s].finest());
+    if (!point.completed())
+      study.notes.push_back(fmt::format("{} is {} as the scene stands{}{}", point.label, point.status,
+                                        point.message.empty() ? "" : ": ", point.message));
+  }
   return all;
 }
 

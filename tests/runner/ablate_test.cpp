@@ -130,17 +130,35 @@ BOOST_AUTO_TEST_CASE(what_takes_the_scene_no_farther_from_the_exact_solution_is_
 }
 
 BOOST_AUTO_TEST_CASE(an_aid_is_noticed_where_uncertainties_fall) {
-  AblatedQuantity falls = made("a", 0.5, 0.2), rises = made("b", 0.01, 0.2);
+  AblatedQuantity falls = made("a", 0.1, 0.2), rises = made("b", 0.01, 0.2);
   falls.uncertainty_changed = 0.05;
   rises.uncertainty_changed = 0.4;
   Ablation aid = made({falls, rises});
   aid.aid = aid.added = true;
   BOOST_TEST((ruling_of(aid).need == Need::required));
   BOOST_TEST(ruling_of(aid).left == std::sqrt(0.5), tt::tolerance(1e-12));  // (1/4 · 2)^½
+  BOOST_TEST(ruling_of(aid).most->quantity == "a");
   aid.quantities[1].uncertainty_changed = 0.8;
   BOOST_TEST((ruling_of(aid).need == Need::not_required));  // (1/4 · 4)^½
+  // The median: one that happens to vanish decides nothing.
+  AblatedQuantity vanishes = falls;
+  vanishes.uncertainty_changed = 0;
+  aid.quantities = {vanishes, rises, rises};
+  BOOST_TEST(ruling_of(aid).left == 2, tt::tolerance(1e-12));
+  // What moves the result by more than was uncertain has not made it certain, unless it is known to be nearer.
+  aid.quantities = {falls};
+  BOOST_TEST((ruling_of(aid).need == Need::required));
+  aid.quantities[0].change = 0.3;
+  BOOST_TEST((ruling_of(aid).need == Need::not_required));
+  aid.quantities[0].field = true;
+  BOOST_TEST((ruling_of(aid).need == Need::required));
+  // Of what is not known to half its size nothing is said, and so of nothing.
+  aid.quantities[0].uncertainty = 0.6;
+  BOOST_TEST((ruling_of(aid).need == Need::not_known));
   aid.quantities.clear();
   BOOST_TEST((ruling_of(aid).need == Need::not_known));
+  aid.quantities = {made("a", 0, 0.2)};
+  BOOST_TEST((ruling_of(aid).need == Need::no_difference));
 }
 
 BOOST_AUTO_TEST_CASE(everything_tried_is_told) {
