@@ -67,14 +67,30 @@ Growth followed(const LeafScene<S, M, R>& it, double number, long steps, const s
 // a per cent for so many.
 constexpr int long_enough = 16;
 
+/// Whether the end that stands the least is free, as theory takes it: that whose node gets the lesser part of the mass
+/// of the cell beside it.
+bool weak_end_is_free(const BarLeaf& it) {
+  double mean = 0;
+  for (const double xi : it.mesh.particles) mean += xi / static_cast<double>(it.mesh.particles.size());
+  const bool left = it.scene.left == Support::free, right = it.scene.right == Support::free;
+  const double middle = mean - 0.5, round_off = 1e-12;
+  return std::abs(middle) < round_off ? left || right : middle > 0 ? left : right;
+}
+
 std::optional<double> theory_of(const BarLeaf& it) {
-  const bool free_end = it.scene.left == Support::free || it.scene.right == Support::free;
   for (std::size_t bar = 0; bar < it.scene.bars.size(); ++bar)
     if (cells_of(it.scene, bar, it.mesh.cells) < long_enough) return {};
   if (it.scene.viscosity && it.scene.viscosity->form != material::Viscosity::Form::linear_quadratic) return {};
-  // Held ends take the weak cell at a free one away.
-  if (!free_end && it.row.particles) return {};
+  if (it.row.particles && !weak_end_is_free(it)) return {};
   return it.predicted_limit();
+}
+
+/// Rollers are mirrors of the lattice only where the particles of a cell are.
+bool mirrored_in_themselves(const std::vector<double>& particles) {
+  constexpr double round_off = 1e-12;
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    if (std::abs(particles[i] + particles[particles.size() - 1 - i] - 1) > round_off) return false;
+  return true;
 }
 
 std::optional<double> theory_of(const PlateLeaf& it) {
@@ -89,7 +105,7 @@ std::optional<double> theory_of(const PlateLeaf& it) {
   const analytic::PlaneMedium medium = medium_of(*it.c.plate);
   constexpr std::size_t most = 100;  // cells; the eigenvalues of more take minutes
   const diffusion::Grid& grid = it.mesh.grid;
-  if (rollers && std::min(grid.nx, grid.ny) < long_enough) return {};
+  if (rollers && (std::min(grid.nx, grid.ny) < long_enough || !mirrored_in_themselves(it.mesh.particles))) return {};
   const double limit = rollers                ? analytic::interior_stability_limit(medium, *scheme)
                        : grid.cells() <= most ? analytic::free_stability_limit(medium, *scheme, grid.nx, grid.ny)
                                               : analytic::plane_stability_limit(medium, *scheme);

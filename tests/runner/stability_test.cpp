@@ -258,6 +258,19 @@ BOOST_AUTO_TEST_CASE(where_there_is_no_theory_none_is_said) {
   BOOST_TEST(!of(plate_case("roller")));  // 6 × 6 cells
   BOOST_TEST(of(bar_case({"fem"}, "16")).has_value());
   BOOST_TEST(!of(bar_case({"fem"}, "15")));
+  // On the right, which is free, the particle stands near the end's node; on the left, which is held, far from it.
+  const std::string off_centre = "particles = [[0.75]]\n";
+  for (const char* method : {"mpm-usl", "mpm-musl"}) {
+    const auto pulled = [&](const std::string& xi) {
+      return parse_case(head("s", "robustness", "paper") + pulled_bar + axes({method}, "20", "0.5") +
+                            replaced(off_centre, "0.75", xi) + sampled("0.5") +
+                            gate("near", "exact", "displacement.L2", "max = 1.0\n"),
+                        "s.toml");
+    };
+    BOOST_TEST(!of(pulled("0.75")));
+    BOOST_TEST(of(pulled("0.25")).has_value());
+  }
+  BOOST_TEST(found(bar_case({"mpm-usl"}, "20"), {"position=0.25"}).limits.back().agrees(0.01));
   // Fixed at both ends: MPM's weak cell at a free end is gone.
   const std::string held =
       replaced(head("s", "robustness", "paper") + pulled_bar, "right = \"free\"", "right = \"fixed\"");
