@@ -26,24 +26,27 @@ struct Timed {
 
 /// One setting, run.
 struct TradePoint {
-  std::string label;     ///< of the run
-  std::string setting;   ///< the label less the number of cells: what a family of meshes has in common
-  std::string method;    ///< "fem", "mpm-musl"
-  std::string scene;     ///< variant and parameters, "v0=0.1": only points of one scene are compared
-  std::size_t leaf = 0;  ///< which of the case's runs
+  std::string label;    ///< of the run
+  std::string setting;  ///< the label less the number of cells: what a family of meshes has in common
+  std::string method;   ///< "fem", "mpm-musl"
+  std::string scene;    ///< variant, parameters and what was changed, "v0=0.1": only points of one are compared
+  std::size_t which = 0, leaf = 0;  ///< which of the cases, and of its runs
+  int threads = 1;                  ///< with which it is timed
   int cells = 0;
-  double cell_size = 0;                                        ///< [case units]
-  std::string status;                                          ///< "completed", or why it is no candidate
+  double cell_size = 0;  ///< [case units]
+  /// "completed", or why it is no candidate; "timed out": `timed` is what it had taken when it was stopped.
+  std::string status;
   std::string message;                                         ///< more of that
   int unknowns = 0;                                            ///< that move
   long steps = 0;                                              ///< of time
   long element_steps = 0, particle_steps = 0, node_steps = 0;  ///< deterministic work
+  long diffusion_updates = 0;                                  ///< and that of the diffusion, of nodes
   std::size_t bytes = 0;                                       ///< of the solver's arrays
   Timed timed;
   std::vector<TradeError> errors;  ///< of a completed run
 
   bool completed() const { return status == "completed"; }
-  double work() const { return static_cast<double>(element_steps + particle_steps + node_steps); }
+  double work() const { return static_cast<double>(element_steps + particle_steps + node_steps + diffusion_updates); }
   /// Null where it has none.
   const TradeError* error_of(const std::string& quantity, double time) const {
     for (const TradeError& one : errors)
@@ -58,7 +61,7 @@ struct Aim {
   double time = 0;
 };
 
-/// All settings of a case that were run.
+/// All settings of a case, and of its changes, that were run.
 struct Trade {
   std::string case_id, title, time_unit;
   std::vector<TradePoint> points;  ///< in the order of the axes

@@ -3,7 +3,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
+#include <sstream>
+#include <vector>
 
 #include "reports/csv.hpp"
 #include "reports/json.hpp"
@@ -14,6 +17,19 @@ namespace {
 
 const char* unit_of_cost(Cost cost) {
   return cost == Cost::work ? "updates" : cost == Cost::seconds ? "seconds" : "bytes";
+}
+
+/// The changed keys, " viscosity.form=york", that all labels name.
+std::vector<std::string> in_all_labels(const Trade& trade) {
+  std::vector<std::string> common;
+  std::istringstream words(trade.points.empty() ? "" : trade.points.front().label);
+  for (std::string word; words >> word;) {
+    const std::string key = word.substr(0, word.find('='));
+    if (key == word || key.find('.') == key.npos) continue;
+    const auto has = [&](const TradePoint& point) { return (point.label + ' ').find(' ' + word + ' ') != word.npos; };
+    if (std::all_of(trade.points.begin(), trade.points.end(), has)) common.push_back(' ' + word);
+  }
+  return common;
 }
 
 }  // namespace
@@ -30,11 +46,24 @@ std::string trade_text(const Trade& trade, const Aim& aim, Cost cost) {
   const std::vector<bool> front = on_front(trade, aim, cost);
   std::vector<std::size_t> order(trade.points.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return cost_of(trade.points[a], cost) < cost_of(trade.points[b], cost);
-  });
+  // What was not begun cost nothing, and stands last.
+  const auto paid = [&](const TradePoint& point) {
+    const double price = cost_of(point, cost);
+    return price > 0 ? price : std::numeric_limits<double>::infinity();
+  };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return paid(trade.points[a]) < paid(trade.points[b]); });
+  const std::vector<std::string> common = in_all_labels(trade);
+  const auto label_of = [&](const TradePoint& point) {
+    std::string label = point.label + ' ';
+    for (const std::string& word : common) label.erase(label.find(word + ' '), word.size());
+    return label.substr(0, label.size() - 1);
+  };
+  if (!common.empty()) out += "  all with";
+  for (const std::string& word : common) out += word;
+  if (!common.empty()) out += '\n';
   std::size_t widest = 3;
-  for (const TradePoint& point : trade.points) widest = std::max(widest, characters(point.label));
+  for (const TradePoint& point : trade.points) widest = std::max(widest, characters(label_of(point)));
   const auto line = [&](const std::string& name, const std::string& error, const std::string& predicted,
                         const std::string& updates, const std::string& bytes, const std::string& seconds,
                         const std::string& mark) {
@@ -51,14 +80,14 @@ std::string trade_text(const Trade& trade, const Aim& aim, Cost cost) {
     const std::string error = !found            ? (point.completed() ? "none" : point.status)
                               : found->band > 0 ? fmt::format("{:.3e} (U {:.0e})", found->error, found->band)
                                                 : fmt::format("{:.3e}", found->error);
-    out += line(point.label, error, found && found->predicted ? fmt::format("{:.3e}", *found->predicted) : "-",
+    out += line(label_of(point), error, found && found->predicted ? fmt::format("{:.3e}", *found->predicted) : "-",
                 fmt::format("{:.3g}", point.work()), fmt::format("{:.3g}", static_cast<double>(point.bytes)),
                 time_words(point.timed), front[i] ? "front" : "");
     if (!point.completed() && !point.message.empty()) out += fmt::format("      {}\n", point.message);
   }
   return out + fmt::format(
-                   "updates: of elements or particles, and of nodes; seconds: median of the rounds ± half their "
-                   "interquartile range,\none thread, no books; front: nothing is as near for fewer {}\n",
+                   "updates: of elements or particles, and of nodes, those of the diffusion too; seconds: median of "
+                   "the rounds\n± half their interquartile range, no books; front: nothing is as near for fewer {}\n",
                    unit_of_cost(cost));
 }
 
@@ -66,8 +95,8 @@ std::string trade_csv(const Trade& trade) {
   std::string out = csv_note("case", trade.case_id) + csv_note("title", trade.title) +
                     csv_note("band", "± of the error where its reference is extrapolated; 0: the reference is exact") +
                     csv_note("seconds",
-                             "median over the rounds, one thread, no books; spread: half the interquartile "
-                             "range, part of the median; empty where it was not timed") +
+                             "median over the rounds, no books; spread: half the interquartile range, part of the "
+                             "median; empty where it was not timed; of what timed out, until it was stopped") +
                     csv_line({"run",
                               "setting",
                               "scene",
@@ -81,7 +110,9 @@ std::string trade_csv(const Trade& trade) {
                               "element_steps",
                               "particle_steps",
                               "node_steps",
+                              "diffusion_updates",
                               "bytes",
+                              "threads",
                               "rounds",
                               "seconds",
                               "spread",
@@ -105,7 +136,9 @@ std::string trade_csv(const Trade& trade) {
                                         std::to_string(point.element_steps),
                                         std::to_string(point.particle_steps),
                                         std::to_string(point.node_steps),
+                                        std::to_string(point.diffusion_updates),
                                         std::to_string(point.bytes),
+                                        std::to_string(point.threads),
                                         std::to_string(point.timed.rounds),
                                         timed ? csv_number(point.timed.seconds) : "",
                                         timed ? csv_number(point.timed.spread) : ""};
@@ -140,7 +173,9 @@ std::string trade_json(const Trade& trade, const Provenance& made_by) {
              {"element_steps", point.element_steps},
              {"particle_steps", point.particle_steps},
              {"node_steps", point.node_steps},
+             {"diffusion_updates", point.diffusion_updates},
              {"bytes", point.bytes},
+             {"threads", point.threads},
              {"rounds", point.timed.rounds}};
     Numbers numbers(one);
     numbers.put("cell_size", point.cell_size);

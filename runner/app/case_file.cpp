@@ -30,8 +30,9 @@ void read_judgement(Table& file, Case& c) {
   check_gates(file.place("gate"), c);
 }
 
-Case read_file(Table& file, const std::function<void(Table&, Case&)>& judgement) {
+Case read_file(Table& file, const std::function<void(Table&, Case&)>& judgement, const std::string& changed) {
   Case c;
+  c.changed = changed;
   file.need("schema", whole(1, 1));
   c.scene = file.declaration({"schema", "id", "title", "claim", "why", "paper", "gate", "figure"});
   c.id = file.need("id", id());
@@ -55,7 +56,7 @@ Case parsed(const std::string& text, const std::filesystem::path& name,
     throw InputError(name.string() + ":1:1: found an empty file; allowed: a case, see cases/README.md");
   Case c;
   read_toml(
-      text, name.string(), [&](Table& file) { c = read_file(file, judgement); }, changes);
+      text, name.string(), [&](Table& file) { c = read_file(file, judgement, label_of(changes)); }, changes);
   c.path = name;
   return c;
 }
@@ -73,7 +74,8 @@ std::string text_of(const std::filesystem::path& path) {
   return text.str();
 }
 
-/// "material.nu=0.4999 without viscosity"
+}  // namespace
+
 std::string label_of(const std::vector<Change>& changes) {
   Names labels;
   for (const auto& [key, value] : changes) {
@@ -88,8 +90,6 @@ std::string label_of(const std::vector<Change>& changes) {
   return listed(labels, " ");
 }
 
-}  // namespace
-
 Case parse_case(const std::string& text, const std::filesystem::path& name) {
   return parsed(text, name, read_judgement, {});
 }
@@ -101,7 +101,6 @@ Case changed_case(const std::string& text, const std::filesystem::path& name, co
     for (const char* judged : {"run", "gate", "figure"}) file.has(judged);  // known, and not read
   };
   Case c = parsed(text, name, unjudged, changes);
-  c.changed = label_of(changes);
   c.allow_unstable = true;
   return c;
 }

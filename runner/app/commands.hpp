@@ -30,6 +30,7 @@ struct Options {
   int rounds = 5;                 ///< trade, pick, bench: in which runs are timed
   std::string error;              ///< pick: at most, "1%"
   std::optional<double> seconds;  ///< pick: at most
+  std::optional<double> limit;    ///< trade, pick: of each run, which is then stopped [s]
   std::string memory;             ///< pick: at most, "1G"
   int cells = 0;                  ///< ablate: of the mesh on which is compared; 0: as fine as is cheap
   std::vector<std::string> methods;           ///< bench: ids of panels; empty: FEM and MPM, MUSL

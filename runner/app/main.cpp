@@ -11,6 +11,7 @@
 #include "runner/app/case_file.hpp"
 #include "runner/app/commands.hpp"
 #include "runner/judge/gates.hpp"
+#include "runner/trade/over.hpp"
 
 namespace {
 
@@ -84,19 +85,25 @@ int main(int argc, char** argv) {
   const auto add_trade = [&](CLI::App* command) {
     add_cases(command, true);
     command
-        ->add_option("--over", options.over,
-                     "more values of an axis or a parameter: courant=0.1:0.9:9, cells=20,40, particles=1,2, "
-                     "method=fem; may be given again")
+        ->add_option(
+            "--over", options.over,
+            std::string("more values of an axis or a parameter, courant=0.1:0.9:9, cells=20,40, particles=1,2, "
+                        "method=fem; values instead of a key of the case's file, diffusion.scheme=rkl2; "
+                        "threads=1,2 of plates, timed. Settings of one scene are compared: what differs in ") +
+                numerical_keys + " alone; any other key makes another scene. May be given again")
         ->allow_extra_args(false);
     command->add_option("--scene", options.scene,
-                        "variant and swept parameters, as runs are labelled; the first without it");
-    command->add_option("--quantity", options.quantity, "what is looked at: stress.L2, velocity.Linf, probe.ID");
+                        "variant, swept parameters and changed keys, as runs are labelled; the first without it");
+    command->add_option("--quantity", options.quantity,
+                        "what is looked at: stress.L2, probe.ID, contact.duration, gauge.ID.arrival");
     command->add_option("--time", options.time, "a sample time, in the case's unit; the last without it");
     command->add_option("--by", options.by,
                         "what is paid in: seconds, updates or bytes; seconds without it, where runs are timed");
     command->add_option("--rounds", options.rounds, "in which every run is timed; 0: not at all")
         ->check(CLI::Range(0, 1000))
         ->capture_default_str();
+    command->add_option("--limit-seconds", options.limit, "a run that takes longer is stopped, a point \"timed out\"")
+        ->check(CLI::PositiveNumber);
     add_threads(command);
   };
   auto* trade = app.add_subcommand("trade", "every setting of a case, its error against its cost");

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <set>
 #include <thread>
 
 #include "reports/figure.hpp"
@@ -13,7 +14,9 @@
 #include "runner/app/commands.hpp"
 #include "runner/app/provenance.hpp"
 #include "runner/app/showing.hpp"
+#include "runner/input/messages.hpp"
 #include "runner/judge/gates.hpp"
+#include "runner/trade/efficacy.hpp"
 #include "runner/trade/over.hpp"
 #include "runner/trade/pick.hpp"
 #include "runner/trade/trade.hpp"
@@ -22,13 +25,32 @@
 namespace diptych::runner {
 namespace {
 
-/// The one case that is meant.
-Case case_of_trade(const Options& options) {
-  std::vector<Case> cases = select_cases(options.selectors);
+/// The one case that is meant, and what --over makes of it.
+struct Asked {
+  std::vector<Case> cases;
+  Timing timing;
+};
+
+Asked asked_of_trade(const Options& options) {
+  const std::vector<Case> cases = select_cases(options.selectors);
   if (cases.size() != 1)
     throw InputError(fmt::format("{}: {} cases; allowed: one", listed(options.selectors), cases.size()));
-  add_values(cases.front(), options.over);
-  return cases.front();
+  Asked asked;
+  asked.timing.rounds = options.rounds;
+  std::vector<std::string> of_case;
+  for (const std::string& text : options.over) {
+    if (!text.starts_with("threads=")) {
+      of_case.push_back(text);
+      continue;
+    }
+    if (options.rounds == 0)
+      throw InputError("--over threads: found with --rounds 0; allowed: with rounds, nothing but the time differs");
+    asked.timing.threads = whole_numbers_in("threads", text.substr(text.find('=') + 1), false);
+    if (*std::max_element(asked.timing.threads.begin(), asked.timing.threads.end()) > 1024)
+      throw InputError("--over threads: allowed: 1 to 1024");
+  }
+  asked.cases = with_values(cases.front(), of_case);
+  return asked;
 }
 
 /// What is paid in, by --by.
@@ -46,10 +68,12 @@ reports::Cost cost_asked(const Options& options) {
 Running running_of(const Options& options, const std::atomic<bool>& cancelled) {
   Running running{threads_of(options), &cancelled};
   running.progress = progress();
+  running.limit_seconds = options.limit;
   return running;
 }
 
-/// What is asked for by --scene: a variant and values of swept parameters, which make another scene of the case.
+/// What is asked for by --scene: a variant, values of swept parameters and changed keys, which make another scene of
+/// the case.
 std::string scene_of(const Options& options, const reports::Trade& trade) {
   Names scenes;
   for (const reports::TradePoint& point : trade.points)
@@ -70,7 +94,7 @@ reports::Aim aim_of(const Options& options, const reports::Trade& trade) {
   if (aims.empty())
     throw InputError(
         fmt::format("{}: no run that completed has an error: neither is an exact solution known nor has a "
-                    "probe four meshes that settle",
+                    "probe, a gauge or an outcome four meshes that settle",
                     trade.case_id));
   Names quantities;
   for (const reports::Aim& aim : aims)
@@ -85,6 +109,18 @@ reports::Aim aim_of(const Options& options, const reports::Trade& trade) {
   if (std::find(times.begin(), times.end(), time) == times.end())
     throw InputError(fmt::format("--time: found {}; allowed: {}", words(time), joined(times)));
   return {quantity, time};
+}
+
+/// What else the table could be of.
+std::string others_of(const reports::Trade& trade) {
+  Names quantities;
+  std::set<double> times;
+  for (const reports::Aim& aim : trade.aims()) {
+    if (!contains(quantities, aim.quantity)) quantities.push_back(aim.quantity);
+    times.insert(aim.time);
+  }
+  return fmt::format("--quantity: {}\n--time: {} {}\n", listed(quantities),
+                     listed(std::vector(times.begin(), times.end())), trade.time_unit);
 }
 
 /// "1%", "0.01", "512M": a number and what follows it.
@@ -106,6 +142,7 @@ void write_trade(const reports::Trade& trade, const reports::Trade& shown, const
   fmt::print("{}\n", (folder / (trade.case_id + ".{csv,json}")).string());
   reports::Case drawn;
   drawn.figures.push_back(work_precision(shown, aim, trade.case_id + ".cost"));
+  drawn.figures.push_back(efficacy(shown, aim, trade.case_id + ".efficacy"));
   draw_figures({drawn}, folder, {});
 }
 
@@ -118,12 +155,12 @@ bool stopped(const reports::Trade& trade) {
 
 int trade_command(const Options& options, const std::atomic<bool>& cancelled) {
   const reports::Cost cost = cost_asked(options);
-  const Case c = case_of_trade(options);
+  const Asked asked = asked_of_trade(options);
   prepare(options.out);
-  const reports::Trade trade = measure_trade(c, running_of(options, cancelled), options.rounds);
+  const reports::Trade trade = measure_trade(asked.cases, running_of(options, cancelled), asked.timing);
   const reports::Trade shown = of_scene(trade, scene_of(options, trade));
   const reports::Aim aim = aim_of(options, shown);
-  fmt::print("{}\n", reports::trade_text(shown, aim, cost));
+  fmt::print("{}\n{}\n", reports::trade_text(shown, aim, cost), others_of(shown));
   write_trade(trade, shown, aim, options);
   return stopped(trade) || cancelled ? unstable_or_error : all_passed;
 }
@@ -143,9 +180,9 @@ int pick_command(const Options& options, const std::atomic<bool>& cancelled) {
     if (!target.bytes)
       throw InputError(fmt::format("--memory: found {}; allowed: bytes, or 100k, 512M, 1G", words(options.memory)));
   }
-  const Case c = case_of_trade(options);
+  const Asked asked = asked_of_trade(options);
   const Running running = running_of(options, cancelled);
-  reports::Trade trade = measure_trade(c, running, options.rounds);
+  reports::Trade trade = measure_trade(asked.cases, running, asked.timing);
   if (stopped(trade) || cancelled) return unstable_or_error;
   trade = of_scene(trade, scene_of(options, trade));
   target.aim = aim_of(options, trade);
@@ -157,9 +194,10 @@ int pick_command(const Options& options, const std::atomic<bool>& cancelled) {
   for (int k = 0; k < most && !confirmed; ++k) {
     const auto proposal = propose(trade, target, pick(trade, target));
     if (!proposal) break;
-    const Trial trial = tried(c, target, *proposal, running);
+    const Trial trial = tried(asked.cases, target, *proposal, running);
     fmt::print("{}", trial.words);
     confirmed = trial.confirmed;
+    if (!trial.point.completed()) break;  // it would be proposed again
     trade.points.push_back(trial.point);
   }
   return found.best || confirmed ? all_passed : some_failed;

@@ -280,6 +280,10 @@ void read_bar_case(Table& file, Case& c) {
     for (const char* more : {"body-force", "boundary-layer", "contact", "convection", "viscosity"})
       known.push_back(more);
     c.features = t.need("features", set_of(one_of(known)));
+    if (!c.changed.empty() && bars_are_read) {
+      c.features.clear();
+      for (const auto& used : features_in_use(c)) c.features.push_back(used.first);
+    }
     std::sort(c.features.begin(), c.features.end());
     if (bars_are_read) check_features(t.place("features"), c);
   });

@@ -146,7 +146,8 @@ struct Case {
   ~Case();
 
   std::filesystem::path path;
-  std::string changed;  ///< what was changed of its file, "material.nu=0.4999"; empty: nothing
+  std::string changed;        ///< what was changed of its file, "material.nu=0.4999"; empty: nothing
+  std::string changed_scene;  ///< the part of it that makes another scene and not another way to solve it
   std::string id, title, claim, why;
   std::vector<std::string> paper_figures;               ///< "1", "3a"
   std::string units;                                    ///< "SI" or "paper"

@@ -18,21 +18,6 @@ bool bar_is_known(const Case& c) {
   return c.first().length > 0 && std::isfinite(speed) && speed > 0;
 }
 
-/// The features that the scene switches on, each with the key that does it.
-std::map<std::string, std::string> features_in_use(const Case& c) {
-  std::map<std::string, std::string> used;
-  for (const BarSpec& bar : c.bars)
-    used[material::feature(bar.material)] = "material.model = " + words(material::model(bar.material));
-  if (used.size() > 1) used.erase(material::Elastic::feature);  // elastic bars beside others run under the others' law
-  if (c.bars.size() > 1) used["contact"] = "a second [[bar]]";
-  if (c.viscosity) used["viscosity"] = "[viscosity]";
-  if (!c.body_force.empty()) used["body-force"] = "[body_force]";
-  if (c.convected) used["convection"] = "model.displacements = \"finite\"";
-  for (const LoadSpec& load : c.loads)
-    if (load.transfer == Transfer::boundary_layer) used["boundary-layer"] = "[[load]] transfer = \"boundary-layer\"";
-  return used;
-}
-
 /// Places and times at which expressions are tried.
 struct Trial {
   std::vector<double> x{0}, y{0}, t{0};
@@ -47,6 +32,20 @@ Trial trial_of(const Case& c) {
 }
 
 }  // namespace
+
+std::map<std::string, std::string> features_in_use(const Case& c) {
+  std::map<std::string, std::string> used;
+  for (const BarSpec& bar : c.bars)
+    used[material::feature(bar.material)] = "material.model = " + words(material::model(bar.material));
+  if (used.size() > 1) used.erase(material::Elastic::feature);  // elastic bars beside others run under the others' law
+  if (c.bars.size() > 1) used["contact"] = "a second [[bar]]";
+  if (c.viscosity) used["viscosity"] = "[viscosity]";
+  if (!c.body_force.empty()) used["body-force"] = "[body_force]";
+  if (c.convected) used["convection"] = "model.displacements = \"finite\"";
+  for (const LoadSpec& load : c.loads)
+    if (load.transfer == Transfer::boundary_layer) used["boundary-layer"] = "[[load]] transfer = \"boundary-layer\"";
+  return used;
+}
 
 std::vector<Case> cases_of_runs(const Case& c) {
   std::vector<Case> all;

@@ -2,6 +2,7 @@
 // check notes its mistakes at the place given, and passes over what is empty because it has been reported already.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,8 @@ void check_contact(const Place& from, const Case&);
 void check_times(const Place& at, const Case&);
 /// Compiles a formula of `variables` ("x", "t") and tries it at x in {0, L/2, L} and t in {0, the sample times}.
 void check_expression(const Place&, const std::string& text, const Names& variables, const Case&);
+/// The features that the scene of bars switches on, each with the key that does it.
+std::map<std::string, std::string> features_in_use(const Case&);
 void check_features(const Place&, const Case&);
 void check_steps(const Place& courant, const Axes&, const Case&);
 void check_methods(const Place& method, const Axes&, const Case&);

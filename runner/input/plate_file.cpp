@@ -299,11 +299,14 @@ void read_variant(Table& t, Table& file, Case& c) {
     place.refuse(words(key), "keys of the scene's tables, like \"damage.rate\": " + joined(allowed));
     return false;
   };
-  for (const std::string& key : t.get("without", set_of(text())))
+  for (const std::string& key : t.get("without", set_of(text()))) {
+    variant.keys.push_back(key);
     if (known(t.place("without"), key) && !take(scene, split_key(key), 0))
       t.place("without").refuse(words(key) + ", which the scene lacks", "keys that it has");
+  }
   t.maybe_table("set", [&](Table& s) {
     for (const auto& entry : s.entries()) {
+      variant.keys.push_back(entry.key);
       if (known(s.place(entry.key), entry.key)) put(scene, split_key(entry.key), 0, entry.value, entry.at);
     }
   });
@@ -478,6 +481,10 @@ void read_plate_case(Table& file, Case& c) {
     for (const PlateModel& model : plate_models())
       if (!contains(features, model.feature)) features.push_back(model.feature);
     c.features = t.need("features", set_of(one_of(features)));
+    if (!c.changed.empty() && scene_is_read) {
+      c.features.clear();
+      for (const auto& used : plate_features(c)) c.features.push_back(used.first);
+    }
     std::sort(c.features.begin(), c.features.end());
     if (scene_is_read) check_plate_features(t.place("features"), c);
     if (c.convected && c.plate->cracking())

@@ -113,6 +113,7 @@ struct GaugeSpec {
 struct PlateVariant {
   std::string id, says;
   PlateSpec plate;
+  std::vector<std::string> keys = {};  ///< which it sets or leaves out
 };
 
 }  // namespace diptych::runner

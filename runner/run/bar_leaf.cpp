@@ -113,9 +113,9 @@ reports::Sample BarLeaf::sample(const Snapshot& own, const Snapshot& at, double 
       const double cell = c.first().length / leaf.cells;
       const double nu = c.viscosity ? viscosity_strength(c) * material::wave_speed(c.first().material) * cell : 0;
       std::optional<double> value;
-      if (c.viscosity)
+      if (c.viscosity && nu > 0)
         value = analytic::viscous_step_error(*exact, nu, q, norm, field.time);
-      else if (theory)
+      else if (!c.viscosity && theory)
         value = analytic::predicted_error(*exact, *theory, q, norm, field.time);
       if (value) *value /= scale;
       return value;

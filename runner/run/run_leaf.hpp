@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <functional>
+#include <optional>
 
 #include "hinge/scene/scene.hpp"
 #include "reports/results.hpp"
@@ -26,6 +27,7 @@ struct Running {
   std::function<void(std::size_t which, const reports::Run&)> finished = {};
   std::function<void(std::size_t done, std::size_t total)> progress = {};  ///< after each run, likewise
   int threads_a_run = 1;                                                   ///< of plates; the same bits for any number
+  std::optional<double> limit_seconds = {};  ///< run_cases stops a run that takes longer: status "timed out"
 };
 
 // The case of the next four is the one that the leaf has: see case_of.

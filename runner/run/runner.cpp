@@ -9,8 +9,10 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 
 #include "runner/input/messages.hpp"
+#include "runner/run/deadline.hpp"
 #include "runner/run/doubt.hpp"
 #include "runner/run/sharing.hpp"
 
@@ -147,7 +149,15 @@ std::vector<reports::Case> run_cases(const std::vector<Case>& cases, const Runni
       try {
         Running one = running;
         one.threads_a_run = threads_within(running.threads, tasks.size(), run.unknowns);
+        std::optional<Deadline> deadline;
+        if (running.limit_seconds) one.cancelled = deadline.emplace(*running.limit_seconds, running.cancelled).stop();
+        const double steps = task.work / std::max(run.unknowns, 1);
         run = run_leaf(*task.c, task.leaf, task.step, one);
+        if (deadline && deadline->passed() && run.status == "cancelled") {
+          run.status = "timed out";
+          run.message =
+              fmt::format("stopped after {:g} s at step {} of about {:.0f}", *running.limit_seconds, run.steps, steps);
+        }
       } catch (const std::exception& problem) {
         run.status = "error";
         run.message = problem.what();

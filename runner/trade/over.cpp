@@ -58,17 +58,6 @@ std::vector<double> numbers_in(const std::string& key, const std::string& text, 
   return values;
 }
 
-std::vector<int> whole_numbers_in(const std::string& key, const std::string& text, bool by_ratio) {
-  std::vector<int> values;
-  for (const double value : numbers_in(key, text, by_ratio)) {
-    const double whole = by_ratio && text.find(':') != std::string::npos ? std::round(value) : value;
-    if (!(whole >= 1 && whole <= 1e6) || whole != std::floor(whole))
-      refuse_values(key, text, "whole numbers from 1 to 1000000");
-    values.push_back(static_cast<int>(whole));
-  }
-  return values;
-}
-
 template <class Value>
 void add_to(std::vector<Value>& axis, const std::vector<Value>& more) {
   for (const Value& value : more)
@@ -126,6 +115,17 @@ void add_one(Case& c, const std::string& text) {
 
 }  // namespace
 
+std::vector<int> whole_numbers_in(const std::string& key, const std::string& text, bool by_ratio) {
+  std::vector<int> values;
+  for (const double value : numbers_in(key, text, by_ratio)) {
+    const double whole = by_ratio && text.find(':') != std::string::npos ? std::round(value) : value;
+    if (!(whole >= 1 && whole <= 1e6) || whole != std::floor(whole))
+      refuse_values(key, text, "whole numbers from 1 to 1000000");
+    values.push_back(static_cast<int>(whole));
+  }
+  return values;
+}
+
 std::vector<Case> with_values(const Case& c, const std::vector<std::string>& over) {
   std::vector<std::vector<Change>> combinations{{}};
   std::vector<std::string> of_axes;
@@ -152,11 +152,22 @@ std::vector<Case> with_values(const Case& c, const std::vector<std::string>& ove
     combinations = std::move(more);
   }
   std::vector<Case> cases;
-  for (const std::vector<Change>& changes : combinations) {
+  for (std::vector<Change>& changes : combinations) {
     cases.push_back(changes.empty() ? c : changed_case(c.path, changes));
+    std::erase_if(changes, [](const Change& change) { return is_numerical(change.key); });
+    cases.back().changed_scene = label_of(changes);
     add_values(cases.back(), of_axes);
   }
   return cases;
+}
+
+bool is_numerical(const std::string& key) {
+  const std::size_t bracket = key.find('['), rest = key.find(']');
+  const std::string plain = rest == key.npos ? key : key.substr(0, bracket) + key.substr(rest + 1);
+  return plain == "viscosity" || plain.starts_with("viscosity.") ||
+         contains({"diffusion.scheme", "diffusion.drift", "load.transfer", "load.thickness", "plate.cell_aspect",
+                   "model.pic"},
+                  plain);
 }
 
 void add_values(Case& c, const std::vector<std::string>& over) {

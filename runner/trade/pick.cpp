@@ -32,13 +32,28 @@ bool within_limits(const TradePoint& point, const Target& target) {
   return !target.bytes || static_cast<double>(point.bytes) <= *target.bytes;
 }
 
-/// The cheapest within the limits whose error is at most so large.
+/// The finer mesh of the point's setting that is further off than `error`, where there is one: what is near on the
+/// coarser one is so by chance, as where errors change their sign.
+const TradePoint* finer_but_further(const Trade& trade, const TradePoint& point, const Target& target, double error) {
+  const TradePoint* found = nullptr;
+  for (const TradePoint& other : trade.points) {
+    const double theirs = sure_error(other, target);
+    if (other.setting != point.setting || other.cells <= point.cells || !std::isfinite(theirs) || theirs <= error)
+      continue;
+    if (!found || other.cells < found->cells) found = &other;
+  }
+  return found;
+}
+
+/// The cheapest within the limits whose error, and that of finer meshes of its setting, is at most so large.
 template <class Also>
 std::optional<std::size_t> cheapest(const Trade& trade, const Target& target, double error, Also&& also) {
   std::optional<std::size_t> best;
   for (std::size_t i = 0; i < trade.points.size(); ++i) {
     const TradePoint& point = trade.points[i];
-    if (!(sure_error(point, target) <= error) || !within_limits(point, target) || !also(point)) continue;
+    if (!(sure_error(point, target) <= error) || !within_limits(point, target) || !also(point) ||
+        finer_but_further(trade, point, target, error))
+      continue;
     if (!best || cost_of(point, target.cost) < cost_of(trade.points[*best], target.cost)) best = i;
   }
   return best;
@@ -74,6 +89,7 @@ Pick pick(const Trade& trade, const Target& target) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < trade.points.size(); ++i) {
     const double error = sure_error(trade.points[i], target);
+    if (error <= target.error) continue;  // near by chance
     if (!(error < least) || !within_limits(trade.points[i], target)) continue;
     least = error;
     found.nearest = i;
@@ -103,7 +119,7 @@ std::optional<Proposal> propose(const Trade& trade, const Target& target, const 
   const int cells = static_cast<int>(std::ceil(fine.cells * std::pow(after / target.error, 1 / order)));
   if (found.best ? cells <= coarse.cells || cells >= fine.cells : cells <= fine.cells || cells > 4 * fine.cells)
     return {};
-  return Proposal{fine.setting, (*first)->leaf, cells, expected(cells)};
+  return Proposal{fine.setting, fine.which, (*first)->leaf, fine.threads, cells, expected(cells)};
 }
 
 std::string words_of(const Trade& trade, const Target& target, const Pick& found) {
@@ -135,22 +151,43 @@ std::string words_of(const Trade& trade, const Target& target, const Pick& found
                         times(*found.halved));
   else
     text += "  half the error: none of the measured settings has it\n";
+  for (std::size_t i = 0; i < trade.points.size(); ++i) {
+    const TradePoint& point = trade.points[i];
+    if (!(sure_error(point, target) <= target.error) || !within_limits(point, target) ||
+        !(price(trade, target, i) < price(trade, target, *found.best)))
+      continue;
+    text +=
+        fmt::format("  passed over: {}: {}, {:.2g} times the cost, but near by chance: {} has {}\n", point.label,
+                    error_words(point, target), times(i), finer_but_further(trade, point, target, target.error)->label,
+                    error_words(*finer_but_further(trade, point, target, target.error), target));
+  }
   return text;
 }
 
-Trial tried(const Case& whole, const Target& target, const Proposal& proposal, const Running& running) {
-  const Case c = bare(whole);
+Trial tried(const std::vector<Case>& cases, const Target& target, const Proposal& proposal, const Running& running) {
+  const Case c = bare(cases.at(proposal.which));
   Leaf leaf = leaves(c).at(proposal.like);
   leaf.cells = proposal.cells;
-  const auto own = case_of(c, leaf);
   Trial trial;
-  trial.point = point_of(run_leaf(*own, leaf, step_of(*own, leaf), running));
+  try {
+    trial.point = measured_point(c, leaf, running);
+  } catch (const std::exception& problem) {  // as where a flyer's face would lie between two columns of nodes
+    trial.point.status = "error";
+    trial.words = fmt::format("  by its meshes {} with {} cells would have {:.3g} %, but it cannot be run: {}\n",
+                              proposal.setting, proposal.cells, 100 * proposal.error, problem.what());
+    return trial;
+  }
+  trial.point.which = proposal.which;
+  trial.point.threads = proposal.threads;
+  if (trial.point.threads > 1)
+    for (std::string* name : {&trial.point.label, &trial.point.setting})
+      *name += fmt::format(" threads={}", trial.point.threads);
   trial.words = fmt::format("  by its meshes {} would have {:.3g} %: ", trial.point.label, 100 * proposal.error);
   trial.point.leaf = proposal.like;  // of the same setting
   const TradeError* found =
       trial.point.completed() ? trial.point.error_of(target.aim.quantity, target.aim.time) : nullptr;
   if (found && target.rounds > 0)
-    trial.point.timed = time_runs(c, {leaf}, target.rounds, running.cancelled, {}).front();
+    trial.point.timed = time_runs({{&c, leaf, proposal.threads}}, target.rounds, running.cancelled, {}).front();
   trial.confirmed = found && found->error <= target.error && within_limits(trial.point, target);
   trial.words += trial.confirmed ? "confirmed, " : "retracted, ";
   if (found)

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "reports/trade_results.hpp"
 #include "runner/input/case.hpp"
@@ -27,14 +28,16 @@ struct Pick {
   std::optional<std::size_t> nearest;    ///< where none meets the target: the least error within the limits
 };
 
-/// Error and the band of its reference together must be within the target.
+/// Error and the band of its reference together must be within the target, and so must those of the finer meshes of the
+/// setting: a mesh whose finer ones are further off is near by chance.
 Pick pick(const reports::Trade&, const Target&);
 
 /// A number of cells that was not run, of the setting of a measured point, with what the errors of that setting's
 /// meshes let expect of it: a line through the two nearest in log error over log h.
 struct Proposal {
   std::string setting;
-  std::size_t like = 0;  ///< a run of the setting among the case's leaves
+  std::size_t which = 0, like = 0;  ///< a run of the setting among the cases and their leaves
+  int threads = 1;
   int cells = 0;
   double error = 0;  ///< expected
 };
@@ -54,6 +57,6 @@ struct Trial {
   std::string words;
   reports::TradePoint point;
 };
-Trial tried(const Case&, const Target&, const Proposal&, const Running&);
+Trial tried(const std::vector<Case>&, const Target&, const Proposal&, const Running&);
 
 }  // namespace diptych::runner

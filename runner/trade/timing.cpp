@@ -28,11 +28,9 @@ reports::Timed summed_up(std::vector<double> rounds) {
   return {static_cast<int>(rounds.size()), median, median > 0 ? range / 2 / median : 0};
 }
 
-std::vector<reports::Timed> time_runs(const Case& c, const std::vector<Leaf>& runs, int rounds,
-                                      const std::atomic<bool>* cancelled,
+std::vector<reports::Timed> time_runs(const std::vector<TimedRun>& runs, int rounds, const std::atomic<bool>* cancelled,
                                       const std::function<void(std::size_t, std::size_t)>& progress) {
   constexpr double least = 0.01;  // [s] of a round; a clock and a cold cache are then small beside it
-  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   Running running;
   running.cancelled = cancelled;
   std::vector<std::vector<double>> taken(runs.size());
@@ -41,11 +39,14 @@ std::vector<reports::Timed> time_runs(const Case& c, const std::vector<Leaf>& ru
   for (int round = 0; round <= rounds; ++round) {
     for (std::size_t i = 0; i < runs.size(); ++i) {
       if (cancelled && *cancelled) break;
+      const tbb::global_control own_threads(tbb::global_control::max_allowed_parallelism,
+                                            static_cast<std::size_t>(runs[i].threads));
+      running.threads_a_run = runs[i].threads;
       double spent = 0;
       int repeats = 0;
       bool completed = true;
       while (completed && spent < least) {
-        const reports::Run run = run_leaf(c, runs[i], running);
+        const reports::Run run = run_leaf(*runs[i].c, runs[i].leaf, running);
         completed = run.status == "completed";
         spent += run.wall_seconds;
         ++repeats;

@@ -6,6 +6,7 @@
 #include "reports/results.hpp"
 #include "reports/trade_results.hpp"
 #include "runner/input/case.hpp"
+#include "runner/input/leaf.hpp"
 #include "runner/run/run_leaf.hpp"
 
 namespace diptych::runner {
@@ -14,14 +15,22 @@ namespace diptych::runner {
 /// a limit may run.
 Case bare(Case);
 
-/// Runs all settings of the case (see `bare`), with each as a point, whatever came of it; where rounds > 0 the
-/// completed ones are timed afterwards, see time_runs. Errors are those of the fields; and of probes, where their value
-/// is known or enough meshes extrapolate to it.
-reports::Trade measure_trade(const Case&, const Running&, int rounds);
+/// How the settings are timed.
+struct Timing {
+  int rounds = 0;               ///< 0: not at all
+  std::vector<int> threads{1};  ///< plates: a point for each number
+};
 
-reports::TradePoint point_of(const reports::Run&);
+/// Runs all settings of a case, and of its changes (see with_values), with each as a point, whatever came of it.
+/// With Running::limit_seconds a run that takes longer is stopped, and one that would take more than twice as long, by
+/// what runs of its method took before, is not begun: both are points with status "timed out". The completed ones are
+/// timed afterwards, see time_runs. Errors are those of errors.hpp. Throws InputError where bars are asked for threads.
+reports::Trade measure_trade(const std::vector<Case>&, const Running&, const Timing&);
 
-/// The points of runs that are there, in the order of the case's leaves; none is timed.
-reports::Trade trade_of(const Case&, const std::vector<reports::Run>&);
+/// A point of a run: what it cost and what came of it; of a completed one with its known errors. The case is that of
+/// the run's leaf.
+reports::TradePoint point_of(const Case&, const Leaf&, const reports::Run&);
+/// The same, run; the case as it is written.
+reports::TradePoint measured_point(const Case&, const Leaf&, const Running&);
 
 }  // namespace diptych::runner
