@@ -98,7 +98,7 @@ int finish(const std::vector<Case>& cases, const std::vector<reports::Case>& res
            bool stopped) {
   int declared = 0;
   for (const Case& c : cases) declared += static_cast<int>(c.gates.size());
-  Outcome outcome = sum_up(results, declared, left_out);
+  Summary outcome = sum_up(results, declared, left_out);
   if (stopped) {
     outcome.exit_code = unstable_or_error;
     outcome.verdict = "ERROR";

@@ -13,7 +13,7 @@ namespace diptych::runner {
 namespace {
 
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+constexpr std::size_t no_edge = std::numeric_limits<std::size_t>::max();
 
 struct Point {
   double x = 0, y = 0;
@@ -61,9 +61,9 @@ Polyline follow(const Edges& edges, std::vector<std::size_t>& next, std::size_t 
   do {
     const Point p = edges.crossing(edge);
     if (points.empty() || !(points.back() == p)) points.push_back(p);
-    edge = std::exchange(next[edge], none);
+    edge = std::exchange(next[edge], no_edge);
     closed = edge == start;
-  } while (edge != none && !closed);
+  } while (edge != no_edge && !closed);
   if (closed && points.size() > 1 && points.front() == points.back()) points.pop_back();
   Polyline line;
   line.closed = closed;
@@ -178,7 +178,7 @@ std::vector<Polyline> contour(const NodalMap& map, double level) {
   const auto finite = [](double v) { return std::isfinite(v); };
   if (!finite(level) || !std::all_of(map.value.begin(), map.value.end(), finite)) return {};
   const Edges edges{map, level};
-  std::vector<std::size_t> next(edges.count(), none);
+  std::vector<std::size_t> next(edges.count(), no_edge);
   std::vector<bool> entered(edges.count(), false);
   const auto join = [&](std::size_t from, std::size_t to) {
     next[from] = to;
@@ -207,7 +207,7 @@ std::vector<Polyline> contour(const NodalMap& map, double level) {
   std::vector<Polyline> lines;
   for (const bool from_border : {true, false}) {
     for (std::size_t e = 0; e < edges.count(); ++e) {
-      if (next[e] == none || (from_border && entered[e])) continue;
+      if (next[e] == no_edge || (from_border && entered[e])) continue;
       Polyline line = follow(edges, next, e);
       if (line.x.size() > 1) lines.push_back(std::move(line));  // a single node at the level has no contour
     }

@@ -26,7 +26,7 @@ void read_convergence(Table& t, const Case& c, FigureSpec& figure) {
   if (figure.times.size() != 1) t.place("times").refuse(listed(figure.times), "one time of sample.times.at");
 }
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double gap = std::numeric_limits<double>::quiet_NaN();
 
 /// Whether the contours are circles, from the radii on the finest mesh of each method.
 std::string roundness(const Case& c, const FigureSpec& spec, const std::vector<reports::Run>& runs, double time) {
@@ -38,7 +38,7 @@ std::string roundness(const Case& c, const FigureSpec& spec, const std::vector<r
     for (const std::string& id : probes) {
       const PlateProbe& probe = probe_of(c, id);
       if (probe.reads != "radius") continue;
-      const Series series = series_of(runs, spec, method, variant, id, time);
+      const Readings series = series_of(runs, spec, method, variant, id, time);
       if (series.value.empty()) return {};
       least = std::min(least, series.value.back());
       most = std::max(most, series.value.back());
@@ -75,7 +75,7 @@ void draw_convergence(const Case& c, const FigureSpec& spec, reports::Case& resu
       high = std::max(high, value);
     };
     for (const std::string& method : spec.methods) {
-      const Series series = series_of(runs, spec, method, variant, id, time);
+      const Readings series = series_of(runs, spec, method, variant, id, time);
       if (series.value.empty()) continue;
       const std::string kind = kind_of_method(method), name = name_of_method(method);
       const double finest = series.size.back();
@@ -89,8 +89,8 @@ void draw_convergence(const Case& c, const FigureSpec& spec, reports::Case& resu
         hold(value);
         if (!series.uncertainty) continue;
         const double u = series.uncertainty->of(k);
-        band.x.insert(band.x.end(), {h, h, none});
-        band.y.insert(band.y.end(), {value - u, value + u, none});
+        band.x.insert(band.x.end(), {h, h, gap});
+        band.y.insert(band.y.end(), {value - u, value + u, gap});
         if (h < 2.5 * finest) hold(value > 0 ? std::max(value - u, 0.0) : value - u), hold(value + u);
       }
       panel.series.push_back({name, kind, std::move(values)});

@@ -44,15 +44,15 @@ double reading(const reports::Run& run, double time, const std::string& id) {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-Series series_of(const std::vector<reports::Run>& runs, const FigureSpec& spec, const std::string& method,
-                 const std::string& variant, const std::string& probe, double time) {
+Readings series_of(const std::vector<reports::Run>& runs, const FigureSpec& spec, const std::string& method,
+                   const std::string& variant, const std::string& probe, double time) {
   std::map<int, const reports::Run*> meshes;
   for (const reports::Run& run : runs) {
     FigureSpec one = spec;
     one.cells = run.cells;
     if (const reports::Run* found = find_run(runs, one, method, variant)) meshes[run.cells] = found;
   }
-  Series series;
+  Readings series;
   for (const auto& [cells, run] : meshes) {
     const double value = reading(*run, time, probe);
     if (!std::isfinite(value)) continue;
@@ -72,7 +72,7 @@ std::string distance_from_settled(const Case& c, const FigureSpec& spec, const s
     if (!off.contains(probe.reads)) continue;
     for (const std::string& method : spec.methods) {
       for (const double time : spec.times.empty() ? c.times : spec.times) {
-        const Series series = series_of(runs, spec, method, "", probe.id, time);
+        const Readings series = series_of(runs, spec, method, "", probe.id, time);
         const auto here = std::find(series.cells.begin(), series.cells.end(), spec.cells);
         if (here == series.cells.end()) continue;
         finest = std::max(finest, series.cells.back());

@@ -21,14 +21,14 @@ const PlateProbe& probe_of(const Case&, const std::string& id);
 double reading(const reports::Run&, double time, const std::string& probe);
 
 /// A reading on each mesh of a method, from the coarsest on.
-struct Series {
+struct Readings {
   std::vector<int> cells;
   std::vector<double> size, value;
   std::optional<Uncertainty> uncertainty;  ///< where there are meshes enough
 };
 /// Of the runs that the figure draws, but for their number of cells.
-Series series_of(const std::vector<reports::Run>&, const FigureSpec&, const std::string& method,
-                 const std::string& variant, const std::string& probe, double time);
+Readings series_of(const std::vector<reports::Run>&, const FigureSpec&, const std::string& method,
+                   const std::string& variant, const std::string& probe, double time);
 
 /// One sentence: how far the radii, areas and totals on the figure's mesh are from those on the finest that was run, at
 /// most over its methods and times. Empty where there is nothing to compare.

@@ -28,7 +28,7 @@ void read_rupture(Table& t, const Case& c, FigureSpec& figure) {
   figure.options = Rupture{t.need("probe", one_of(largest)), t.get("variant", one_of(variants_of(c)))};
 }
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double unread = std::numeric_limits<double>::quiet_NaN();
 
 void draw_rupture(const Case& c, const FigureSpec& spec, reports::Case& result) {
   const auto& [probe, variant] = options_of<Rupture>(spec);
@@ -66,7 +66,7 @@ void draw_rupture(const Case& c, const FigureSpec& spec, reports::Case& result) 
     reports::Curve rupture;
     for (const int cells : meshes) {
       reports::Curve damage;
-      double size = 0, load = none;
+      double size = 0, load = unread;
       for (const double p : loads) {
         FigureSpec one = spec;
         one.cells = cells;

@@ -19,11 +19,11 @@ bool bar_is_known(const Case& c) {
 }
 
 /// Places and times at which expressions are tried.
-struct Trial {
+struct TriedAt {
   std::vector<double> x{0}, y{0}, t{0};
 };
-Trial trial_of(const Case& c) {
-  Trial trial;
+TriedAt trial_of(const Case& c) {
+  TriedAt trial;
   const double width = c.plate ? c.plate->width : c.first().length;
   trial.x = {0, width / 2, width};
   if (c.plate) trial.y = {0, c.plate->height / 2, c.plate->height};
@@ -192,7 +192,7 @@ void check_expression(const Place& place, const std::string& text, const Names& 
   try {
     const Expression expression(text, variables, constants);
     if (!known || variables.empty()) return;  // the reader of expressions has seen a constant one to be finite
-    const Trial trial = trial_of(c);
+    const TriedAt trial = trial_of(c);
     const std::map<std::string, const std::vector<double>*> tried{{"x", &trial.x}, {"y", &trial.y}, {"t", &trial.t}};
     std::array<const std::vector<double>*, 3> values{};
     static const std::vector<double> once{0};

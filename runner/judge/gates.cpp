@@ -90,8 +90,8 @@ bool all_made(const Case& c, const GateSpec& gate, const std::vector<Run>& runs)
                       [](const JudgedRun& one) { return one.run->status == "cancelled"; });
 }
 
-Outcome sum_up(const std::vector<reports::Case>& cases, int declared, int left_out) {
-  Outcome outcome;
+Summary sum_up(const std::vector<reports::Case>& cases, int declared, int left_out) {
+  Summary outcome;
   outcome.declared = declared;
   outcome.left_out = left_out;
   Verdict verdict = Verdict::pass;

@@ -22,13 +22,13 @@ bool of_single_numbers(const GateSpec&);
 bool all_made(const Case&, const GateSpec&, const std::vector<reports::Run>&);
 
 /// What became of all gates together: the worst verdict and the exit status it stands for.
-struct Outcome {
+struct Summary {
   int exit_code = 13;
   std::string verdict;  ///< "PASS", or the worst of the gates' verdicts
   int declared = 0, judged = 0, passed = 0;
   int left_out = 0;  ///< slow gates that --quick did not run
 };
-Outcome sum_up(const std::vector<reports::Case>&, int declared, int left_out);
+Summary sum_up(const std::vector<reports::Case>&, int declared, int left_out);
 
 /// Exit statuses (1, 2, 126, 127 and 128+n belong to the shell and to signals, and are never produced).
 enum Exit : int { all_passed = 0, some_failed = 10, unstable_or_error = 12, invalid = 13, usage = 14 };
