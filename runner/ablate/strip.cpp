@@ -85,7 +85,11 @@ std::optional<Revision> strip_across(Axis axis, const Case& c, const Leaf& leaf)
     r.changes.push_back({"supports." + side_names[side], value_in("roller")});
     rollers = true;
   }
-  if (rollers) r.says += "; its free long sides are rollers";
+  if (rollers) r.says += ", and rollers where its long sides are free";
+  if (plate.solid && std::holds_alternative<solid::Elastic>(*plate.solid) && !compression_of(*plate.solid)) {
+    const double speed = elastic_of(plate).pressure_wave_speed();  // of a strip that cannot widen
+    r.says += fmt::format("; or a bar with E = {:.4g}", elastic_of(plate).density * speed * speed);
+  }
   for (const PlateProbe& probe : c.plate_probes) {
     const std::string key = "sample.probes[" + probe.id + ']';
     if (probe.reads == "total" || probe.reads == "area") {
