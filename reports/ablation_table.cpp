@@ -33,7 +33,12 @@ std::string part_words(double value) {
   return value <= AblatedQuantity::round_off ? "0" : short_number(100 * value) + " %";
 }
 
-std::string times_words(double times) { return std::isnan(times) ? "-" : times > 9999 ? ">9999" : short_number(times); }
+std::string times_words(double times) {
+  return std::isnan(times) ? "-"
+         : times > 9999    ? ">9999"
+         : times < 9.95    ? fmt::format("{:.3g}", times)
+                           : short_number(times);
+}
 
 std::string padded(const std::string& text, std::size_t width, bool right) {
   const std::size_t own = characters(text);
@@ -105,9 +110,21 @@ std::string error_words_of(const AblatedQuantity& one) {
   return fmt::format(", its error goes from {} to {}", part_words(one.stands), part_words(one.changed));
 }
 
+/// What can be read only as the scene stands: it is told, and decides nothing.
+std::string gone_words_of(const Ablation& one) {
+  std::vector<std::string> gone;
+  for (const AblatedQuantity& q : one.quantities)
+    if (std::isnan(q.change) && std::isnan(q.changed) && (q.field || std::abs(q.stands) > 0) &&
+        std::find(gone.begin(), gone.end(), q.quantity) == gone.end())
+      gone.push_back(q.quantity);
+  std::string all;
+  for (const std::string& name : gone) all += (all.empty() ? "; gone with it: " : ", ") + name;
+  return all;
+}
+
 std::string verdict_words(const Ablation& one, const std::string& unit) {
   const Ruling ruling = ruling_of(one);
-  const std::string cost = cost_words_of(one), paid = cost.empty() ? "" : "; " + cost;
+  const std::string cost = cost_words_of(one), paid = (cost.empty() ? "" : "; " + cost) + gone_words_of(one);
   const auto most = [&] {
     return fmt::format("{} changes by {}, {} times its uncertainty{}", where_words(*ruling.most, unit),
                        part_words(ruling.most->change), times_words(ruling.most->times()),
@@ -126,7 +143,8 @@ std::string verdict_words(const Ablation& one, const std::string& unit) {
       return fmt::format("{}{} ({} of {} quantities notice){}", one.added ? "NOTICED: " : "required: ", most(),
                          ruling.exceeded, ruling.quantities, paid);
     case Need::not_required:
-      return fmt::format("{}: at most, {}{}", one.added ? "not noticed" : "NOT REQUIRED HERE", most(), paid);
+      return fmt::format("{}: at most, {}{}", one.added ? "not noticed" : "NOT REQUIRED HERE: " + one.says, most(),
+                         paid);
     case Need::no_difference:
       if (one.status == "idle") return "not noticed: " + one.message;
       return fmt::format("{}: {}: nothing changes{}", one.added ? "not noticed" : "NOT REQUIRED HERE", one.says, paid);

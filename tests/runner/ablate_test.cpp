@@ -337,6 +337,7 @@ BOOST_AUTO_TEST_CASE(damage_goes_with_its_diffusion_and_its_probes) {
   BOOST_TEST(quantity(damage, "probe.largest").stands > 0);
   BOOST_TEST(std::isnan(quantity(damage, "probe.largest").changed));
   BOOST_TEST(std::isfinite(quantity(damage, "probe.platen").change));
+  expect_in(reports::ablation_text(study), {"gone with it: probe.largest"});
   BOOST_TEST(quantity(damage, "stress").known_by == "2 meshes");
   BOOST_TEST(named(study, "diffusion").status == "completed");
   BOOST_TEST(named(study, "platen").status == "completed");
