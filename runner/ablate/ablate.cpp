@@ -33,7 +33,7 @@ struct Standing {
 };
 
 /// A changed scene that is to be run, or why it is not.
-struct Trial {
+struct Alteration {
   Ablation ablation;
   std::optional<Case> scene;
   std::size_t of = 0;  ///< which setting
@@ -76,9 +76,9 @@ std::string first_reason(const std::string& message, const std::string& path) {
 }
 
 /// Reads the changed scene: with the exact solution where it is still that of the scene, else without.
-Trial trial_of(const Case& c, const Standing& standing, std::size_t of, const std::string& part, bool added,
-               Revision revision) {
-  Trial trial;
+Alteration trial_of(const Case& c, const Standing& standing, std::size_t of, const std::string& part, bool added,
+                    Revision revision) {
+  Alteration trial;
   trial.of = of;
   Ablation& one = trial.ablation;
   one.part = part;
@@ -117,10 +117,10 @@ std::vector<const reports::Run*> completed_of(const std::vector<reports::Run>& r
 }
 
 /// Runs the trials that have a scene and fills in what they say.
-void run_trials(const std::vector<Standing>& all, const Running& running, std::vector<Trial>& trials) {
+void run_trials(const std::vector<Standing>& all, const Running& running, std::vector<Alteration>& trials) {
   std::vector<Case> cases;
-  std::vector<Trial*> of_case;
-  for (Trial& trial : trials) {
+  std::vector<Alteration*> of_case;
+  for (Alteration& trial : trials) {
     trial.ablation.run = all[trial.of].finest().label();
     trial.ablation.stands = point_of(all[trial.of].finest());
     if (!trial.scene) continue;
@@ -210,7 +210,7 @@ std::vector<Standing> standing_of(const Case& c, const AblationPlan& plan, const
 }
 
 /// Of one setting: each feature off, what it lacks, and one cell across where it does not vary.
-void add_trials(const Case& c, const Standing& standing, std::size_t of, std::vector<Trial>& trials) {
+void add_trials(const Case& c, const Standing& standing, std::size_t of, std::vector<Alteration>& trials) {
   const Leaf& leaf = standing.setting.leaf;
   const Case own = *case_of(c, leaf);
   for (const std::string& feature : features_of(c, leaf)) {
@@ -233,7 +233,7 @@ void add_trials(const Case& c, const Standing& standing, std::size_t of, std::ve
     if (!(found.part <= alike))
       revision.impossible = fmt::format("the fields vary along {}, {} at t = {:g} {} by {:.3g} % of its largest value",
                                         name, found.field, found.time, c.time_unit, 100 * found.part);
-    Trial trial = trial_of(c, standing, of, "cells along " + name, false, revision);
+    Alteration trial = trial_of(c, standing, of, "cells along " + name, false, revision);
     trial.strip = axis;
     trials.push_back(std::move(trial));
   }
@@ -241,12 +241,13 @@ void add_trials(const Case& c, const Standing& standing, std::size_t of, std::ve
     if (const auto revision = row.with(own, leaf)) trials.push_back(trial_of(c, standing, of, row.id, true, *revision));
 }
 
-void time_trials(const std::vector<Standing>& all, int rounds, const Running& how, std::vector<Trial>& trials) {
+void time_trials(const std::vector<Standing>& all, int rounds, const Running& how, std::vector<Alteration>& trials) {
   const auto timed = [&](const Case& c) {
-    return time_runs(bare(c), {leaves(c).back()}, rounds, how.cancelled, {}).front();
+    const Case plain = bare(c);
+    return time_runs({{&plain, leaves(c).back()}}, rounds, how.cancelled, {}).front();
   };
   std::vector<std::optional<reports::Timed>> standing(all.size());
-  for (Trial& trial : trials) {
+  for (Alteration& trial : trials) {
     if (!trial.ablation.completed()) continue;
     auto& own = standing[trial.of];
     if (!own) own = timed(all[trial.of].scene);
@@ -266,11 +267,11 @@ AblationStudy ablate(const Case& c, const AblationPlan& plan, const Running& how
   running.keep_fields = true;
   running.books = Books::sums;  // the work of flow is theirs
   const std::vector<Standing> all = standing_of(c, plan, running, study);
-  std::vector<Trial> trials;
+  std::vector<Alteration> trials;
   for (std::size_t s = 0; s < all.size(); ++s) add_trials(c, all[s], s, trials);
   run_trials(all, running, trials);
   if (plan.rounds > 0) time_trials(all, plan.rounds, how, trials);
-  for (Trial& trial : trials) study.tried.push_back(std::move(trial.ablation));
+  for (Alteration& trial : trials) study.tried.push_back(std::move(trial.ablation));
   return study;
 }
 

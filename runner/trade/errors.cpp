@@ -41,8 +41,8 @@ struct Family {
 
 }  // namespace
 
-std::vector<Reading> readings(const Case& c, const reports::Run& run) {
-  std::vector<Reading> all;
+std::vector<RunNumber> readings(const Case& c, const reports::Run& run) {
+  std::vector<RunNumber> all;
   for (const reports::Sample& sample : run.samples)
     for (const reports::ProbeValue& probe : sample.probes)
       all.push_back({"probe." + probe.id, sample.asked, probe.value});
@@ -51,7 +51,7 @@ std::vector<Reading> readings(const Case& c, const reports::Run& run) {
     if (found == run.measures.end() || c.times.empty()) continue;
     all.push_back({name, c.times.back(), found->second, exact_error(c, run, name, found->second)});
   }
-  std::erase_if(all, [](const Reading& one) { return !std::isfinite(one.value); });
+  std::erase_if(all, [](const RunNumber& one) { return !std::isfinite(one.value); });
   return all;
 }
 
@@ -61,16 +61,16 @@ std::vector<reports::TradeError> known_errors(const Case& c, const reports::Run&
     for (const reports::FieldError& field : sample.errors)
       for (const reports::Norm& norm : reports::norms)
         errors.push_back({field.field + "." + norm.name, sample.asked, field.*norm.measured, 0, field.*norm.predicted});
-  for (const Reading& one : readings(c, run))
+  for (const RunNumber& one : readings(c, run))
     if (one.error) errors.push_back({one.quantity, one.time, *one.error, 0, {}});
   return errors;
 }
 
-void add_extrapolated(const std::vector<std::vector<Reading>>& of, reports::Trade& trade) {
+void add_extrapolated(const std::vector<std::vector<RunNumber>>& of, reports::Trade& trade) {
   std::map<std::tuple<std::string, std::string, double>, std::map<std::string, Family>> looked_at;
   for (std::size_t i = 0; i < of.size(); ++i) {
     const reports::TradePoint& point = trade.points.at(i);
-    for (const Reading& one : of[i]) {
+    for (const RunNumber& one : of[i]) {
       if (one.error) continue;
       Family& family = looked_at[{point.scene, one.quantity, one.time}][point.setting];
       family.points.push_back(i);

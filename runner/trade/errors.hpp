@@ -12,7 +12,7 @@
 namespace diptych::runner {
 
 /// A number of a run.
-struct Reading {
+struct RunNumber {
   std::string quantity;  ///< "probe.tip", "contact.duration", "gauge.near.arrival"
   double time = 0;       ///< sample time; that of the last one for what is said of a whole run
   double value = 0;      ///< in its own unit
@@ -21,7 +21,7 @@ struct Reading {
 };
 /// The finite ones, of the case that the run's leaf has. Of what gauges read the exact value is that of the elastic
 /// shock; of other solids it tells the arrival alone, the elastic front being ahead of what comes after it.
-std::vector<Reading> readings(const Case&, const reports::Run&);
+std::vector<RunNumber> readings(const Case&, const reports::Run&);
 
 /// Norms of the fields' errors, and the readings whose exact value is known.
 std::vector<reports::TradeError> known_errors(const Case&, const reports::Run&);
@@ -29,6 +29,6 @@ std::vector<reports::TradeError> known_errors(const Case&, const reports::Run&);
 /// Of readings whose exact value is not known, the errors against what the setting with the least uncertainty
 /// extrapolates to, its uncertainty as their band. `of` holds each point's readings. Nothing where no setting of the
 /// scene has meshes enough, or none whose uncertainty is less than a quarter of the value.
-void add_extrapolated(const std::vector<std::vector<Reading>>& of, reports::Trade&);
+void add_extrapolated(const std::vector<std::vector<RunNumber>>& of, reports::Trade&);
 
 }  // namespace diptych::runner

@@ -124,12 +124,11 @@ void spread_over_threads(const std::vector<Case>& cases, const std::vector<int>&
 
 }  // namespace
 
-reports::TradePoint point_of(const Case& c, const Leaf& leaf, const reports::Run& run) {
+reports::TradePoint point_of(const reports::Run& run) {
   reports::TradePoint point;
   point.label = run.label();
   point.setting = setting_of(run);
   point.method = run.method;
-  point.scene = scene_of(c, leaf);
   point.cells = run.cells;
   point.cell_size = run.cell_size;
   point.status = run.status;
@@ -151,8 +150,14 @@ reports::TradePoint point_of(const Case& c, const Leaf& leaf, const reports::Run
   if (const auto found = run.measures.find("diffusion.updates"); found != run.measures.end())
     point.diffusion_updates = std::lround(found->second * static_cast<double>(run.steps));
   point.bytes = run.bytes;
-  if (point.completed()) point.errors = known_errors(c, run);
   if (point.status == "timed out" && run.wall_seconds > 0) point.timed = {1, run.wall_seconds, 0};
+  return point;
+}
+
+reports::TradePoint point_of(const Case& c, const Leaf& leaf, const reports::Run& run) {
+  reports::TradePoint point = point_of(run);
+  point.scene = scene_of(c, leaf);
+  if (point.completed()) point.errors = known_errors(c, run);
   return point;
 }
 
@@ -178,7 +183,7 @@ reports::Trade measure_trade(const std::vector<Case>& family, const Running& run
   trade.title = cases.front().title;
   trade.time_unit = cases.front().time_unit;
   std::vector<std::vector<Leaf>> of_cases;
-  std::vector<std::vector<Reading>> read;
+  std::vector<std::vector<RunNumber>> read;
   for (std::size_t which = 0; which < cases.size(); ++which) {
     of_cases.push_back(leaves(cases[which]));
     for (std::size_t i = 0; i < of_cases[which].size(); ++i) {
@@ -187,7 +192,7 @@ reports::Trade measure_trade(const std::vector<Case>& family, const Running& run
       trade.points.push_back(point_of(*own, of_cases[which][i], run));
       trade.points.back().which = which;
       trade.points.back().leaf = i;
-      read.push_back(trade.points.back().completed() ? readings(*own, run) : std::vector<Reading>{});
+      read.push_back(trade.points.back().completed() ? readings(*own, run) : std::vector<RunNumber>{});
     }
   }
   add_extrapolated(read, trade);

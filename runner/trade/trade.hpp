@@ -27,8 +27,9 @@ struct Timing {
 /// timed afterwards, see time_runs. Errors are those of errors.hpp. Throws InputError where bars are asked for threads.
 reports::Trade measure_trade(const std::vector<Case>&, const Running&, const Timing&);
 
-/// A point of a run: what it cost and what came of it; of a completed one with its known errors. The case is that of
-/// the run's leaf.
+/// A point of a run: what it cost and what came of it.
+reports::TradePoint point_of(const reports::Run&);
+/// The same in its scene, and of a completed one with its known errors. The case is that of the run's leaf.
 reports::TradePoint point_of(const Case&, const Leaf&, const reports::Run&);
 /// The same, run; the case as it is written.
 reports::TradePoint measured_point(const Case&, const Leaf&, const Running&);

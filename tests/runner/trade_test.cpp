@@ -607,7 +607,7 @@ gauges = [{ id = "g", from_face = 6e-3 }]
   Case failing = c;
   failing.plate->solid = solid::Failing{};
   const auto exact = [&](const Case& one, const std::string& quantity) {
-    for (const Reading& reading : readings(one, first))
+    for (const RunNumber& reading : readings(one, first))
       if (reading.quantity == quantity) return reading.error.has_value();
     return false;
   };
@@ -633,7 +633,7 @@ BOOST_AUTO_TEST_CASE(outcomes_and_what_is_extrapolated_are_errors_too) {
   BOOST_TEST(!read[1].error.has_value());
   // 1 + h²: four meshes of "a" tell that it goes to 1; "b" has two, and is measured by it.
   Trade t;
-  std::vector<std::vector<Reading>> of;
+  std::vector<std::vector<RunNumber>> of;
   for (const int cells : {10, 20, 40, 80}) {
     t.points.push_back(made("a", cells, 0, 100));
     of.push_back({{"probe.p", 1, 1 + 1.0 / (cells * cells)}});
