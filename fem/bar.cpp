@@ -129,16 +129,16 @@ class Bars {
     return work;
   }
 
-  Mesh<Law, viscous>& first() { return meshes_.front(); }
-  Mesh<Law, viscous>& last() { return meshes_.back(); }
+  BarMesh<Law, viscous>& first() { return meshes_.front(); }
+  BarMesh<Law, viscous>& last() { return meshes_.back(); }
 
   const Scene& scene_;
   double dt_, c_max_;
-  std::vector<Mesh<Law, viscous>> meshes_;
+  std::vector<BarMesh<Law, viscous>> meshes_;
   std::vector<Pair> pairs_;
   Touches touches_;
   EndForces load_;
-  BarBooks<Mesh<Law, viscous>> books_;
+  BarBooks<BarMesh<Law, viscous>> books_;
 };
 
 }  // namespace

@@ -21,9 +21,9 @@ struct StressWork {
 
 /// The elements of one bar.
 template <class Law, bool viscous>
-class Mesh {
+class BarMesh {
  public:
-  Mesh(const Scene& scene, const Bar& bar, const Law& law, int cells)
+  BarMesh(const Scene& scene, const Bar& bar, const Law& law, int cells)
       : scene_(scene),
         bar_(bar),
         law_(law),

@@ -19,7 +19,7 @@
 namespace diptych::mpm {
 namespace {
 
-constexpr double edge = 0.5 - 0x1p-54;  // as the particles are placed
+constexpr double inside = 0.5 - 0x1p-54;  // as the particles are placed
 
 struct Setting {
   material::Stiffness stiffness;
@@ -202,7 +202,7 @@ double limit_of(const material::PlaneElastic& solid, const Plate& plate, const C
                 const std::vector<double>& positions, Scheme scheme) {
   Setting s{solid.stiffness(), solid.density, plate.width / cells.x, plate.height / cells.y, scheme, plate.pic, {}, {}};
   for (const double xi : positions) {
-    const double offset = std::clamp(xi - 0.5, -edge, edge);
+    const double offset = std::clamp(xi - 0.5, -inside, inside);
     s.near.push_back(0.5 - offset);
     s.far.push_back(0.5 + offset);
   }

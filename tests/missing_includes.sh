@@ -10,7 +10,9 @@ cd "$1"
 mapfile -t files < <(find hinge fem mpm analytic reports runner -name '*.[ch]pp' | sort)
 # Headers, any of which will do, and what they give in std.
 given='
-algorithm: adjacent_find all_of any_of clamp copy count count_if equal_range fill find find_if find_if_not lower_bound max max_element min min_element minmax minmax_element mismatch none_of partition ranges replace replace_if reverse rotate set_union sort stable_sort transform unique upper_bound
+algorithm: adjacent_find all_of any_of clamp copy count count_if equal_range fill find find_if find_if_not lower_bound
+algorithm: max max_element min min_element minmax minmax_element mismatch none_of partition ranges replace replace_if
+algorithm: reverse rotate set_union sort stable_sort transform unique upper_bound
 any: any any_cast
 array: array
 atomic: atomic
@@ -18,7 +20,9 @@ bit: bit_cast endian
 cctype: isalnum isalpha isdigit isspace tolower toupper
 charconv: from_chars to_chars
 chrono: chrono
-cmath: abs acos asin atan atan2 cbrt ceil copysign cos cosh erf erfc exp expm1 fabs floor fmod hypot isfinite isinf isnan ldexp llround log log10 log1p log2 lround nan nextafter pow remainder round signbit sin sinh sqrt tan tanh trunc
+cmath: abs acos asin atan atan2 cbrt ceil copysign cos cosh erf erfc exp expm1 fabs floor fmod hypot isfinite isinf
+cmath: isnan ldexp llround log log10 log1p log2 lround nan nextafter pow remainder round signbit sin sinh sqrt tan tanh
+cmath: trunc
 csignal: signal
 cstddef cstdio cstdlib cstring string vector array: size_t
 cstdint: int32_t int64_t uint16_t uint32_t uint64_t uint8_t
@@ -83,7 +87,10 @@ missing=$(awk -v given="$given" '
     if (match(text, /^ *(template <[^;]*> )?(struct|class|enum class|enum|concept|using) [A-Z][A-Za-z0-9]*/)) {
       rest = substr(text, RSTART + RLENGTH)
       name = substr(text, RSTART, RLENGTH); sub(/.* /, "", name)
-      if (is_header && rest !~ /^( : [a-z_0-9:]+)?;/) { if (text ~ /^ /) within[name] = within[name] " " file; else gives[name] = gives[name] " " file }
+      if (is_header && rest !~ /^( : [a-z_0-9:]+)?;/) {
+        if (text ~ /^ /) within[name] = within[name] " " file
+        else gives[name] = gives[name] " " file
+      }
     } else if (is_header && text ~ /^[A-Za-z:\[]/ && text !~ /^(static_assert|namespace)/) {
       rest = text
       while (match(rest, /[ &*>][a-z][a-z_0-9]*\(/)) {
@@ -105,9 +112,13 @@ missing=$(awk -v given="$given" '
     while (match(rest, /[A-Za-z_0-9:<>&*\]]+ [&*]?[A-Za-z_0-9]+ *[\[({=;,):]/)) {
       part = substr(rest, RSTART, RLENGTH); rest = substr(rest, RSTART + RLENGTH - 1)
       before = part; sub(/ .*/, "", before); sub(/^[^ ]* [&*]?/, "", part); sub(/ *.$/, "", part)
-      if (before !~ /^(return|throw|case|else|and|or|not|co_return|new|delete)$/ && (before !~ /^[:<>*&]+$/ || before ~ /^>+[&*]$/)) own[part] = 1
+      if (before ~ /^(return|throw|case|else|and|or|not|co_return|new|delete)$/) continue
+      if (before !~ /^[:<>*&]+$/ || before ~ /^>+[&*]$/) own[part] = 1
     }
-    while (match(whole, /\(\*[a-z_0-9]+\)/)) { own[substr(whole, RSTART + 2, RLENGTH - 3)] = 1; whole = substr(whole, RSTART + RLENGTH) }
+    while (match(whole, /\(\*[a-z_0-9]+\)/)) {
+      own[substr(whole, RSTART + 2, RLENGTH - 3)] = 1
+      whole = substr(whole, RSTART + RLENGTH)
+    }
   }
   END {
     for (f = 1; f <= file_count; ++f) {

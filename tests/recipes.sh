@@ -3,7 +3,8 @@
 # is built with all of them at once; the commands after `$` are run there, and the lines below a command must be found in
 # what it says, in this order. A headline that says "N files" is held to it, documents, tests and scenes not counted.
 #
-# The copy is built file by file, so that a missing include is found, and what its object files tell is looked at (objects.sh).
+# The copy is built without optimisation, all sources of reports/ at once and all of runner/. What its object files tell is
+# looked at (objects.sh), and so are names that hide others.
 #
 # A fenced block with a file behind its language belongs to that file: a new one, or with the language diff a change of one
 # that is there, whose lines stand in it as they are.
@@ -74,12 +75,20 @@ count
 [ "$checks" -ge 5 ] || wrong "only $checks recipes say what they cost"
 [ "$failures" = 0 ] || exit 1
 
-cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-g0 -DBUILD_TESTING=OFF >log 2>&1 &&
+cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Debug -DBUILD_TESTING=OFF \
+  -DCMAKE_CXX_FLAGS_DEBUG="-g1 -ffunction-sections -fdata-sections -Wshadow -Wno-error=shadow" \
+  -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=0 >log 2>&1 &&
   cmake --build build --target diptych >log 2>&1 || { tail -n 40 log; exit 1; }
 PATH=$work/build:$PATH
-# This build has an object file of each source.
 checks=$((checks + 1))
 find build -name '*.o' ! -path '*diptych_main*' -exec "$1/tests/objects.sh" {} + || wrong "the object files"
+
+# Of files compiled together, one's names hide another's, which is nothing; those of its own file or of a header are wrong.
+checks=$((checks + 1))
+hidden=$(awk '/\[-Wshadow/ { warning = $0; split($1, place, ":") }
+  /note: shadowed declaration is here/ { split($1, of, ":")
+    if (warning !~ /global declaration/ || of[1] == place[1] || of[1] ~ /hpp$/) print warning }' log | sort -u)
+[ -z "$hidden" ] || { wrong "names that hide others"; echo "$hidden"; }
 
 # --- what its commands say ---
 ask() { # ask COMMAND LINES: each line of LINES is found in what the command says, after the one before

@@ -53,8 +53,8 @@ Rule<std::vector<double>> particles() {
           "a number of particles from 1 to 1000, or a list of natural coordinates in [0, 1], ascending");
     for (const Node& one : *list) {
       const auto value = one.number();
-      constexpr double round_off = 1e-12;  // a particle 1e-18 outside its cell is on the cell's face
-      if (!value || !(*value >= -round_off && *value <= 1 + round_off))
+      constexpr double slack = 1e-12;  // a particle 1e-18 outside its cell is on the cell's face
+      if (!value || !(*value >= -slack && *value <= 1 + slack))
         return place.entry(xi.size()).refuse_value("natural coordinates of the cell, from 0 to 1");
       xi.push_back(std::clamp(*value, 0.0, 1.0));
     }

@@ -129,13 +129,13 @@ PointField nodes_as_points(const diffusion::Grid& grid, const std::vector<double
 
 reports::PlateFields damage_fields(const Case& c, const diffusion::Grid& grid, const PlateSnapshot& snapshot) {
   const diffusion::Evolution& evolution = c.plate->cracking()->evolution;
-  reports::PlateFields fields{grid.nx, grid.ny, c.plate->width, c.plate->height, {}, {}};
-  fields.crack_density = evolution.diffusion ? snapshot.concentration : cells_to_nodes(grid, snapshot.crack_density);
+  reports::PlateFields drawn{grid.nx, grid.ny, c.plate->width, c.plate->height, {}, {}};
+  drawn.crack_density = evolution.diffusion ? snapshot.concentration : cells_to_nodes(grid, snapshot.crack_density);
   if (evolution.diffusion)
-    for (double& value : fields.crack_density) value *= evolution.diffusion->crack_volume;  // eq. 27
-  for (const double value : fields.crack_density)
-    fields.damage.push_back(damage_of(c).damage(std::clamp(value, 0.0, evolution.cap)));
-  return fields;
+    for (double& value : drawn.crack_density) value *= evolution.diffusion->crack_volume;  // eq. 27
+  for (const double value : drawn.crack_density)
+    drawn.damage.push_back(damage_of(c).damage(std::clamp(value, 0.0, evolution.cap)));
+  return drawn;
 }
 
 reports::ProbeValue read_plate_probe(const Case& c, const diffusion::Grid& grid, const PlateProbe& probe,
