@@ -158,6 +158,7 @@ int trade_command(const Options& options, const std::atomic<bool>& cancelled) {
   const Asked asked = asked_of_trade(options);
   prepare(options.out);
   const reports::Trade trade = measure_trade(asked.cases, running_of(options, cancelled), asked.timing);
+  if (cancelled && trade.aims().empty()) return unstable_or_error;  // nothing to show yet
   const reports::Trade shown = of_scene(trade, scene_of(options, trade));
   const reports::Aim aim = aim_of(options, shown);
   fmt::print("{}\n{}\n", reports::trade_text(shown, aim, cost), others_of(shown));
