@@ -10,7 +10,7 @@ cd "$1"
 mapfile -t files < <(find hinge fem mpm analytic reports runner -name '*.[ch]pp' | sort)
 # Headers, any of which will do, and what they give in std.
 given='
-algorithm: adjacent_find all_of any_of clamp copy count count_if equal_range fill find find_if find_if_not lower_bound
+algorithm: adjacent_find all_of any_of binary_search clamp copy count count_if equal_range fill find find_if find_if_not lower_bound
 algorithm: max max_element min min_element minmax minmax_element mismatch none_of partition ranges replace replace_if
 algorithm: reverse rotate set_union sort stable_sort transform unique upper_bound
 any: any any_cast
@@ -24,6 +24,7 @@ cmath: abs acos asin atan atan2 cbrt ceil copysign cos cosh erf erfc exp expm1 f
 cmath: isnan ldexp llround log log10 log1p log2 lround nan nextafter pow remainder round signbit sin sinh sqrt tan tanh
 cmath: trunc
 csignal: signal
+condition_variable: condition_variable condition_variable_any
 cstddef cstdio cstdlib cstring string vector array: size_t
 cstdint: int32_t int64_t uint16_t uint32_t uint64_t uint8_t
 cstdio: ferror fflush fprintf fputs perror remove rename
@@ -52,6 +53,7 @@ ostream iostream sstream fstream: endl flush ios ios_base
 set: set
 span: span
 sstream: istringstream ostringstream stringstream
+stop_token thread: stop_token
 stdexcept: domain_error invalid_argument logic_error out_of_range runtime_error
 string: stod stoi string to_string
 string string_view: string_view

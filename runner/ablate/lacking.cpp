@@ -9,7 +9,7 @@
 namespace diptych::runner {
 namespace {
 
-using Asked = std::optional<Revision>;
+using Addition = std::optional<Revision>;
 
 Revision not_tried(const std::string& why) {
   Revision none;
@@ -18,7 +18,7 @@ Revision not_tried(const std::string& why) {
 }
 
 /// At a shock; where nothing is compressed it does nothing.
-Asked with_viscosity(const Case& c, const Leaf&) {
+Addition with_viscosity(const Case& c, const Leaf&) {
   if (c.viscosity || (c.plate && (c.plate->viscosity || !c.plate->solid))) return {};
   if (c.plate && !takes_viscosity(*c.plate->solid))
     return not_tried("no viscosity is known beside damage or plasticity of a plate");
@@ -48,7 +48,7 @@ Revision finite_displacements() {
   return r;
 }
 
-Asked with_finite_displacements(const Case& c, const Leaf& leaf) {
+Addition with_finite_displacements(const Case& c, const Leaf& leaf) {
   if (c.convected || (c.plate && !c.plate->solid)) return {};
   const Panel& method = panel(leaf.method);
   if (contains(method.shows_not, "convection")) return not_tried("its mesh goes with the material either way");
@@ -56,7 +56,7 @@ Asked with_finite_displacements(const Case& c, const Leaf& leaf) {
   return finite_displacements();
 }
 
-Asked with_contact(const Case& c, const Leaf& leaf) {
+Addition with_contact(const Case& c, const Leaf& leaf) {
   if (c.plate || c.bars.size() < 2) return {};
   const Panel& method = panel(leaf.method);
   if (method.grid_contact) {
@@ -73,7 +73,7 @@ Asked with_contact(const Case& c, const Leaf& leaf) {
   return r;
 }
 
-Asked with_finer_step(const Case& c, const Leaf&) {
+Addition with_finer_step(const Case& c, const Leaf&) {
   if (!c.plate || !(c.plate->diffusion || (c.plate->solid && diffuses(*c.plate->solid)))) return {};
   Revision r;
   r.says = c.plate->solid ? "half the time step, of waves and of diffusion" : "half the time step";

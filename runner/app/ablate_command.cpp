@@ -10,6 +10,7 @@
 #include "runner/app/commands.hpp"
 #include "runner/app/provenance.hpp"
 #include "runner/app/showing.hpp"
+#include "runner/input/messages.hpp"
 #include "runner/judge/gates.hpp"
 
 namespace diptych::runner {

@@ -26,7 +26,7 @@ void read_convergence(Table& t, const Case& c, FigureSpec& figure) {
   if (figure.times.size() != 1) t.place("times").refuse(listed(figure.times), "one time of sample.times.at");
 }
 
-constexpr double gap = std::numeric_limits<double>::quiet_NaN();
+constexpr double pen_up = std::numeric_limits<double>::quiet_NaN();
 
 /// Whether the contours are circles, from the radii on the finest mesh of each method.
 std::string roundness(const Case& c, const FigureSpec& spec, const std::vector<reports::Run>& runs, double time) {
@@ -89,8 +89,8 @@ void draw_convergence(const Case& c, const FigureSpec& spec, reports::Case& resu
         hold(value);
         if (!series.uncertainty) continue;
         const double u = series.uncertainty->of(k);
-        band.x.insert(band.x.end(), {h, h, gap});
-        band.y.insert(band.y.end(), {value - u, value + u, gap});
+        band.x.insert(band.x.end(), {h, h, pen_up});
+        band.y.insert(band.y.end(), {value - u, value + u, pen_up});
         if (h < 2.5 * finest) hold(value > 0 ? std::max(value - u, 0.0) : value - u), hold(value + u);
       }
       panel.series.push_back({name, kind, std::move(values)});
