@@ -76,8 +76,8 @@ std::string first_reason(const std::string& message, const std::string& path) {
 }
 
 /// Reads the changed scene: with the exact solution where it is still that of the scene, else without.
-Alteration trial_of(const Case& c, const Standing& standing, std::size_t of, const std::string& part, bool added,
-                    Revision revision) {
+Alteration alteration_of(const Case& c, const Standing& standing, std::size_t of, const std::string& part, bool added,
+                         Revision revision) {
   Alteration trial;
   trial.of = of;
   Ablation& one = trial.ablation;
@@ -219,7 +219,7 @@ void add_trials(const Case& c, const Standing& standing, std::size_t of, std::ve
       revision = row->without(own, leaf);
     else
       revision.impossible = "no way to take it off is known";
-    trials.push_back(trial_of(c, standing, of, feature, false, revision));
+    trials.push_back(alteration_of(c, standing, of, feature, false, revision));
   }
   for (const Axis axis : {Axis::y, Axis::x}) {
     const reports::Run& run = standing.finest();
@@ -233,12 +233,13 @@ void add_trials(const Case& c, const Standing& standing, std::size_t of, std::ve
     if (!(found.part <= alike))
       revision.impossible = fmt::format("the fields vary along {}, {} at t = {:g} {} by {:.3g} % of its largest value",
                                         name, found.field, found.time, c.time_unit, 100 * found.part);
-    Alteration trial = trial_of(c, standing, of, "cells along " + name, false, revision);
+    Alteration trial = alteration_of(c, standing, of, "cells along " + name, false, revision);
     trial.strip = axis;
     trials.push_back(std::move(trial));
   }
   for (const LackingRow& row : lacking_rows())
-    if (const auto revision = row.with(own, leaf)) trials.push_back(trial_of(c, standing, of, row.id, true, *revision));
+    if (const auto revision = row.with(own, leaf))
+      trials.push_back(alteration_of(c, standing, of, row.id, true, *revision));
 }
 
 void time_trials(const std::vector<Standing>& all, int rounds, const Running& how, std::vector<Alteration>& trials) {

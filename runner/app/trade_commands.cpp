@@ -74,7 +74,7 @@ Running running_of(const Options& options, const std::atomic<bool>& cancelled) {
 
 /// What is asked for by --scene: a variant, values of swept parameters and changed keys, which make another scene of
 /// the case.
-std::string scene_of(const Options& options, const reports::Trade& trade) {
+std::string scene_asked(const Options& options, const reports::Trade& trade) {
   Names scenes;
   for (const reports::TradePoint& point : trade.points)
     if (!contains(scenes, point.scene)) scenes.push_back(point.scene);
@@ -159,7 +159,7 @@ int trade_command(const Options& options, const std::atomic<bool>& cancelled) {
   prepare(options.out);
   const reports::Trade trade = measure_trade(asked.cases, running_of(options, cancelled), asked.timing);
   if (cancelled && trade.aims().empty()) return unstable_or_error;  // nothing to show yet
-  const reports::Trade shown = of_scene(trade, scene_of(options, trade));
+  const reports::Trade shown = of_scene(trade, scene_asked(options, trade));
   const reports::Aim aim = aim_of(options, shown);
   fmt::print("{}\n{}\n", reports::trade_text(shown, aim, cost), others_of(shown));
   write_trade(trade, shown, aim, options);
@@ -185,7 +185,7 @@ int pick_command(const Options& options, const std::atomic<bool>& cancelled) {
   const Running running = running_of(options, cancelled);
   reports::Trade trade = measure_trade(asked.cases, running, asked.timing);
   if (stopped(trade) || cancelled) return unstable_or_error;
-  trade = of_scene(trade, scene_of(options, trade));
+  trade = of_scene(trade, scene_asked(options, trade));
   target.aim = aim_of(options, trade);
   const Pick found = pick(trade, target);
   fmt::print("{}", words_of(trade, target, found));

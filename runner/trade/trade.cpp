@@ -74,7 +74,7 @@ class Pace {
 };
 
 /// The runs of all cases; what is not begun for its length has status "left out".
-std::vector<reports::Case> runs_of(const std::vector<Case>& cases, Running running) {
+std::vector<reports::Case> all_runs_of(const std::vector<Case>& cases, Running running) {
   running.books = Books::sums;  // where a case keeps any
   if (!running.limit_seconds) return run_cases(cases, running);
   const double limit = *running.limit_seconds;
@@ -177,7 +177,7 @@ Case bare(Case c) {
 reports::Trade measure_trade(const std::vector<Case>& family, const Running& running, const Timing& timing) {
   std::vector<Case> cases;
   for (const Case& c : family) cases.push_back(bare(c));
-  const std::vector<reports::Case> results = runs_of(cases, running);
+  const std::vector<reports::Case> results = all_runs_of(cases, running);
   reports::Trade trade;
   trade.case_id = cases.front().id;
   trade.title = cases.front().title;
