@@ -193,7 +193,7 @@ std::vector<AblatedQuantity> fields_with_doubt(const std::vector<const Run*>& me
       } else if (meshes.size() > 1 && s < meshes[meshes.size() - 2]->samples.size()) {
         const auto coarser = fields_at(meshes[meshes.size() - 2]->samples[s]);
         if (const PointValues* other = field_called(coarser, field.name)) {
-          one.uncertainty = distance(*other, field) / one.scale;
+          one.uncertainty = l2_distance(*other, field) / one.scale;
           one.known_by = "2 meshes";
         }
       }
@@ -226,7 +226,7 @@ std::vector<PointValues> fields_at(const Sample& sample) {
   return all;
 }
 
-double distance(PointValues a, PointValues b, Axis regardless) {
+double l2_distance(PointValues a, PointValues b, Axis regardless) {
   if (a.component.size() != b.component.size() || b.x.empty()) return std::nan("");
   for (PointValues* field : {&a, &b}) {
     if (regardless == Axis::x) std::fill(field->x.begin(), field->x.end(), 0);
@@ -288,7 +288,7 @@ void compare(const Case& c, const Run& stands, const ChangedRun& other, std::vec
       const auto before = fields_at(stands.samples[s]), after = fields_at(changed.samples[s]);
       const PointValues *first = field_called(before, one.quantity), *second = field_called(after, one.quantity);
       if (!first || !second) continue;
-      one.change = distance(*first, *second, other.strip) / one.scale;
+      one.change = l2_distance(*first, *second, other.strip) / one.scale;
       const reports::FieldError* error = error_of(changed.samples[s], one.quantity);
       if (error && !other.another_exact) one.changed = error->l2 * error->scale / one.scale;
       continue;

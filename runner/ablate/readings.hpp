@@ -29,7 +29,7 @@ enum class Axis { none, x, y };
 /// Mean norm (1/n Σ |a − b|²)^½ over those points of `a` at whose place `b` has some, too: there b's nearest value is
 /// taken, and the mean of those that are equally near. NaN where there are none, or other components. With an axis
 /// places count as the same wherever they lie along it.
-double distance(PointValues a, PointValues b, Axis regardless = Axis::none);
+double l2_distance(PointValues a, PointValues b, Axis regardless = Axis::none);
 
 /// All quantities of the run on the finest of these meshes, with how uncertain they are; `meshes` are completed runs of
 /// one setting on meshes that differ, from coarse to fine. The changed run's are not yet there.

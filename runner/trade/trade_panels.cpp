@@ -35,7 +35,7 @@ std::string colour_in(const std::string& line) {
   return at == line.npos ? "" : line.substr(at, line.find('\'', line.find('\'', at) + 1) + 1 - at);
 }
 
-void put(reports::Curve& curve, double x, double y) {
+void add_to_curve(reports::Curve& curve, double x, double y) {
   curve.x.push_back(x);
   curve.y.push_back(y);
 }
@@ -82,9 +82,9 @@ std::vector<reports::Figure::Series> series_of(const std::vector<std::vector<con
     if (one == all.end()) one = all.insert(all.end(), {label, kind, {}});
     for (const TradePoint* point : meshes) {
       const auto [x, y] = at(*point);
-      put(one->curve, x, y);
+      add_to_curve(one->curve, x, y);
     }
-    put(one->curve, no_number, no_number);  // ends the line
+    add_to_curve(one->curve, no_number, no_number);  // ends the line
   }
   return all;
 }
@@ -116,8 +116,8 @@ void add_strip(const reports::Trade& trade, const std::function<double(const Tra
     if (known.try_emplace(id, strip.size()).second)
       strip.push_back({family_of_method(point.method) + ", " + end.name, id, {}});
     const auto row = static_cast<double>(std::find(families.begin(), families.end(), kind) - families.begin());
-    put(strip[known[id]].curve, place, edge + (row + 0.7) * step);
-    put(strip[known[id]].curve, no_number, no_number);
+    add_to_curve(strip[known[id]].curve, place, edge + (row + 0.7) * step);
+    add_to_curve(strip[known[id]].curve, no_number, no_number);
   }
   if (strip.empty()) return;
   panel.series.insert(panel.series.end(), strip.begin(), strip.end());

@@ -390,19 +390,19 @@ BOOST_AUTO_TEST_CASE(the_mesh_is_as_fine_as_is_cheap) {
 
 BOOST_AUTO_TEST_CASE(fields_are_compared_at_their_places) {
   // The fine points beside a coarse one are equally near: their mean.
-  BOOST_TEST(runner::distance(line({1, 3}, {1, 3}), line({0.5, 1.5, 2.5, 3.5}, {0.5, 1.5, 2.5, 3.5})) < 1e-15);
-  BOOST_TEST(runner::distance(line({1, 3}, {1, 3}), line({1, 3}, {1, 5})) == std::sqrt(2.0), tt::tolerance(1e-15));
+  BOOST_TEST(runner::l2_distance(line({1, 3}, {1, 3}), line({0.5, 1.5, 2.5, 3.5}, {0.5, 1.5, 2.5, 3.5})) < 1e-15);
+  BOOST_TEST(runner::l2_distance(line({1, 3}, {1, 3}), line({1, 3}, {1, 5})) == std::sqrt(2.0), tt::tolerance(1e-15));
   // Bars are told apart, and one that the other lacks is passed over.
   const PointValues two = line({1, 3}, {1, 3}, {1, 1}), far = line({1, 3}, {1, 3}, {1, 2});
-  BOOST_TEST(runner::distance(two, far) < 1e9);
+  BOOST_TEST(runner::l2_distance(two, far) < 1e9);
   PointValues first = line({1, 3, 1, 3}, {1, 3, 7, 7}), other = line({1, 3}, {1, 3});
   first.y = {1, 1, 2, 2};
-  BOOST_TEST(runner::distance(first, other) < 1e-15);
+  BOOST_TEST(runner::l2_distance(first, other) < 1e-15);
   // Regardless of y: a strip beside a plate, one of whose four points differs.
   const PointValues plate = {"stress", {0, 1, 0, 1}, {0, 0, 9, 9}, {{5, 6, 5, 7}}, {1}};
   const PointValues strip = {"stress", {0, 1}, {0, 0}, {{5, 6}}, {1}};
-  BOOST_TEST(runner::distance(plate, strip, Axis::y) == 0.5, tt::tolerance(1e-15));
-  BOOST_TEST(std::isnan(runner::distance(plate, {"stress", {0}, {0}, {{1}, {1}}, {1, 1}})));
+  BOOST_TEST(runner::l2_distance(plate, strip, Axis::y) == 0.5, tt::tolerance(1e-15));
+  BOOST_TEST(std::isnan(runner::l2_distance(plate, {"stress", {0}, {0}, {{1}, {1}}, {1, 1}})));
 }
 
 BOOST_AUTO_TEST_SUITE_END()
