@@ -142,11 +142,9 @@ class PlateMaterial {
 
   /// What has changed in a row's cells takes effect. room: for what is told of the row, which grows as needed.
   void renew(Index j, double dt, bool counts, Taken& taken, std::vector<double>& room) {
-    Index from = j * mesh_.nx, to = from + mesh_.nx;
-    if (!counts) return model_.renew(from, mesh_.nx);
+    if (!counts) return model_.renew(j * mesh_.nx, mesh_.nx);
     if constexpr (!Model::yields && TellsEnergy<typename Model::Row>) {
-      while (from < to && !model_.outdated(from)) ++from;
-      while (from < to && !model_.outdated(to - 1)) --to;
+      const auto [from, to] = solid::outdated_in(model_, {j * mesh_.nx, (j + 1) * mesh_.nx});
       if (from == to) return;
       const Index cells = to - from;
       if (room.size() < 16 * cells) room.resize(16 * cells);

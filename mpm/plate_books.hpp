@@ -153,10 +153,8 @@ class PlateBooks {
       bands_.for_each([&](Band& band) {
         for (std::size_t j = band.first; j < band.last; ++j) {
           const std::size_t row = j * columns;
-          std::size_t from = 0, to = columns;
-          while (from < to && !model_.outdated(row + from)) ++from;
-          while (from < to && !model_.outdated(row + to - 1)) --to;
-          row_sums_[j][0] = from < to ? taken_in_row(j, from, to, velocity, dt, renew, band.told) : 0;
+          const auto [from, to] = solid::outdated_in(model_, {row, row + columns});
+          row_sums_[j][0] = from < to ? taken_in_row(j, from - row, to - row, velocity, dt, renew, band.told) : 0;
         }
       });
       taken_by_damage_ = particles_.state().volume * of_rows<1>()[0];

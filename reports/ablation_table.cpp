@@ -40,12 +40,6 @@ std::string times_words(double times) {
                            : short_number(times);
 }
 
-std::string padded(const std::string& text, std::size_t width, bool right) {
-  const std::size_t own = characters(text);
-  const std::string space(own < width ? width - own : 0, ' ');
-  return right ? space + text : text + space;
-}
-
 /// Text in lines of at most so many characters, all but the first with so many spaces before them.
 std::string folded(const std::string& text, std::size_t indent) {
   std::string out, line;
@@ -161,8 +155,8 @@ std::string table_of(const Ablation& one, const std::string& unit) {
   std::size_t widest = 8;
   for (const AblatedQuantity* row : rows) widest = std::max(widest, characters(row->quantity));
   const auto line = [&](const std::string& quantity, const std::vector<std::string>& cells, const std::string& last) {
-    out += "    " + padded(quantity, widest, false);
-    for (const std::string& cell : cells) out += padded(cell, 13, true);
+    out += "    " + to_left(quantity, widest);
+    for (const std::string& cell : cells) out += to_right(cell, 13);
     out += "  " + last + '\n';
   };
   line("quantity",
@@ -236,7 +230,7 @@ std::string ablation_text(const AblationStudy& study) {
         run = one.run;
         out += (added ? "Added, one at a time: " : "Taken off, one at a time: ") + run + '\n';
       }
-      out += folded("  " + padded(one.part, widest, false) + "  " + verdict_words(one, study.time_unit), widest + 4);
+      out += folded("  " + to_left(one.part, widest) + "  " + verdict_words(one, study.time_unit), widest + 4);
     }
   }
   return out + summary_of(study, false) + summary_of(study, true);

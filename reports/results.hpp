@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -38,6 +39,12 @@ struct ProbeValue {
 /// comes as its steps, two points a cell.
 struct Curve {
   std::vector<double> x, y;
+
+  void add(double at, double value) {
+    x.push_back(at);
+    y.push_back(value);
+  }
+  void end_line() { add(std::nan(""), std::nan("")); }  ///< what is added next is not joined to it
 };
 
 /// Damage of a plate on the nodes of its cells, row by row from the bottom.

@@ -42,7 +42,6 @@ struct StabilityMap {
   double least = 0;    ///< the smallest number tried
   double most = 0;     ///< the largest
   double growth = 0;   ///< of energy over the look-ahead, beyond which a run is unstable
-  bool cancelled = false;
   std::vector<StabilityLimit> limits;
 };
 

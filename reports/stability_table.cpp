@@ -32,8 +32,8 @@ std::string stability_text(const StabilityMap& map, double within) {
   const auto line = [&](const std::string& name, const std::string& limit, const std::string& between,
                         const std::string& theory, const std::string& ratio, const std::string& below,
                         const std::string& above) {
-    return fmt::format("  {}{} {:>12} {:>17} {:>8} {:>7} {:>9} {:>9}", name,
-                       std::string(widest - characters(name), ' '), limit, between, theory, ratio, below, above);
+    return fmt::format("  {} {:>12} {:>17} {:>8} {:>7} {:>9} {:>9}", to_left(name, widest), limit, between, theory,
+                       ratio, below, above);
   };
   out += line("run", "limit", "between", "theory", "ratio", "growth at", "and above") + '\n';
   for (const StabilityLimit& one : map.limits) {

@@ -10,6 +10,14 @@ std::size_t characters(std::string_view text) {
       std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
 
+std::string to_right(const std::string& text, std::size_t width) {
+  return std::string(width - std::min(width, characters(text)), ' ') + text;
+}
+
+std::string to_left(const std::string& text, std::size_t width) {
+  return text + std::string(width - std::min(width, characters(text)), ' ');
+}
+
 std::vector<std::string> lines_of(const std::string& text, double pixels, double per_character) {
   const auto limit = static_cast<std::size_t>(pixels / per_character);
   std::vector<std::string> lines;

@@ -9,6 +9,10 @@ namespace diptych::reports {
 
 std::size_t characters(std::string_view text);  ///< UTF-8 code points
 
+/// With spaces before it, or behind it, so that it takes so many columns at least.
+std::string to_right(const std::string& text, std::size_t width);
+std::string to_left(const std::string& text, std::size_t width);
+
 /// Breaks at spaces into lines of at most so many pixels, where words allow.
 std::vector<std::string> lines_of(const std::string& text, double pixels, double per_character);
 

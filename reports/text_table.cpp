@@ -41,8 +41,7 @@ std::string text_of(const Grid& grid) {
 
   const auto line = [&](const std::vector<std::string>& cells) {
     std::string text;
-    for (std::size_t i = 0; i < cells.size(); ++i)
-      text += "  " + std::string(widths[i] - characters(cells[i]), ' ') + cells[i];
+    for (std::size_t i = 0; i < cells.size(); ++i) text += "  " + to_right(cells[i], widths[i]);
     return text;
   };
   std::string out = "  " + wrapped(grid.title, 2) + "\n" + line(grid.heads) + "\n";

@@ -67,11 +67,8 @@ std::string trade_text(const Trade& trade, const Aim& aim, Cost cost) {
   const auto line = [&](const std::string& name, const std::string& error, const std::string& predicted,
                         const std::string& updates, const std::string& bytes, const std::string& seconds,
                         const std::string& mark) {
-    const std::string padded = name + std::string(widest - characters(name), ' ');
-    std::string text = fmt::format("  {}  {:>20} {:>10} {:>10} {:>9} ", padded, error, predicted, updates, bytes);
-    const std::size_t column = 14, own = characters(seconds);
-    text += std::string(own < column ? column - own : 0, ' ') + seconds + (mark.empty() ? "" : "  " + mark);
-    return text + '\n';
+    return fmt::format("  {}  {:>20} {:>10} {:>10} {:>9} {}{}\n", to_left(name, widest), error, predicted, updates,
+                       bytes, to_right(seconds, 14), mark.empty() ? "" : "  " + mark);
   };
   out += line("run", "error", "predicted", "updates", "bytes", "seconds", "");
   for (const std::size_t i : order) {

@@ -25,6 +25,7 @@ cmath: isnan ldexp llround log log10 log1p log2 lround nan nextafter pow remaind
 cmath: trunc
 csignal: signal
 condition_variable: condition_variable condition_variable_any
+cstddef: max_align_t nullptr_t ptrdiff_t
 cstddef cstdio cstdlib cstring string vector array: size_t
 cstdint: int32_t int64_t uint16_t uint32_t uint64_t uint8_t
 cstdio: ferror fflush fprintf fputs perror remove rename

@@ -96,4 +96,15 @@ class Unchanging {
   material::PlaneElastic elastic_;
 };
 
+/// From the first of these cells that is outdated to past the last: from = to where none is.
+struct CellSpan {
+  std::size_t from, to;
+};
+template <class Model>
+CellSpan outdated_in(const Model& model, CellSpan cells) {
+  while (cells.from < cells.to && !model.outdated(cells.from)) ++cells.from;
+  while (cells.from < cells.to && !model.outdated(cells.to - 1)) --cells.to;
+  return cells;
+}
+
 }  // namespace diptych::solid

@@ -41,12 +41,6 @@ struct Alteration {
   Axis strip = Axis::none;
 };
 
-double predicted_work(const Case& c, const Leaf& leaf) {
-  const auto own = case_of(c, leaf);
-  const Outlook ahead = outlook(*own, leaf);
-  return describe(*own, leaf).unknowns * ahead.duration / ahead.step.asked;
-}
-
 bool has_exact(const Case& c) { return (c.plate ? c.plate->exact.solution : c.exact.solution) != "none"; }
 
 /// A named solution of a plate that nothing else sets in motion is what gives it its start.
@@ -165,7 +159,7 @@ void keep_within(double budget, const Case& c, AblatedSetting& setting, Ablation
     Leaf leaf = setting.leaf;
     for (std::size_t k = 0; k <= finest; ++k) {
       leaf.cells = setting.meshes[k];
-      work += predicted_work(c, leaf) * (k == finest ? tried + 1 : 1);
+      work += updates_ahead(c, leaf) * (k == finest ? tried + 1 : 1);
     }
     return work;
   };
@@ -242,18 +236,22 @@ void add_trials(const Case& c, const Standing& standing, std::size_t of, std::ve
       trials.push_back(alteration_of(c, standing, of, row.id, true, *revision));
 }
 
+/// All in one go, so that what is compared is timed in the same rounds.
 void time_trials(const std::vector<Standing>& all, int rounds, const Running& how, std::vector<Alteration>& trials) {
-  const auto timed = [&](const Case& c) {
-    const Case plain = bare(c);
-    return time_runs({{&plain, leaves(c).back()}}, rounds, how.cancelled, {}).front();
-  };
-  std::vector<std::optional<reports::Timed>> standing(all.size());
+  std::vector<Case> cases;  // as they stand, then as altered
+  for (const Standing& standing : all) cases.push_back(bare(standing.scene));
+  std::vector<Alteration*> timed;
   for (Alteration& trial : trials) {
     if (!trial.ablation.completed()) continue;
-    auto& own = standing[trial.of];
-    if (!own) own = timed(all[trial.of].scene);
-    trial.ablation.stands.timed = *own;
-    trial.ablation.changed.timed = timed(*trial.scene);
+    cases.push_back(bare(*trial.scene));
+    timed.push_back(&trial);
+  }
+  std::vector<TimedRun> runs;
+  for (const Case& c : cases) runs.push_back({&c, leaves(c).back()});
+  const std::vector<reports::Timed> times = time_runs(runs, rounds, how.cancelled, how.progress);
+  for (std::size_t k = 0; k < timed.size(); ++k) {
+    timed[k]->ablation.stands.timed = times[timed[k]->of];
+    timed[k]->ablation.changed.timed = times[all.size() + k];
   }
 }
 

@@ -11,12 +11,6 @@
 namespace diptych::runner {
 namespace {
 
-Revision kept(const std::string& why) {
-  Revision none;
-  none.impossible = why;
-  return none;
-}
-
 /// The tables before `.key` in the file where it has this value: "material" or "bar[1].material" of material.model.
 Names tables_with(const Case& c, const std::string& key, const std::string& value) {
   Names tables;
@@ -54,7 +48,7 @@ const Names read_of_diffusion{"concentration", "total"};
 // -------------------------------------------------------------------------------------------
 
 Revision without_elastic(const Case&, const Leaf&) {
-  return kept("it is the law of the material; without it there is no stress");
+  return impossible("it is the law of the material; without it there is no stress");
 }
 
 Revision without_plasticity(const Case& c, const Leaf&) {
@@ -150,7 +144,7 @@ Revision without_failure_wave(const Case& c, const Leaf&) {
 }
 
 Revision without_diffusion(const Case& c, const Leaf&) {
-  if (!c.plate->solid) return kept("the scene is nothing but diffusion");
+  if (!c.plate->solid) return impossible("the scene is nothing but diffusion");
   if (c.plate->failing())  // its nodes keep their dilatancy, and none of it moves
     return {"d0 = 0: no dilatancy leaves the impact face", {{"diffusion.d0", Node{{}, 0.0}}}, {}, {}, true, ""};
   Revision r{
@@ -182,10 +176,16 @@ Revision without_pic(const Case&, const Leaf&) {
 }
 
 Revision without_impact(const Case&, const Leaf&) {
-  return kept("the flyer is what sets the scene in motion; without it nothing happens");
+  return impossible("the flyer is what sets the scene in motion; without it nothing happens");
 }
 
 }  // namespace
+
+Revision impossible(const std::string& why) {
+  Revision none;
+  none.impossible = why;
+  return none;
+}
 
 const std::vector<FeatureRow>& feature_rows() {
   static const std::vector<FeatureRow> rows{

@@ -22,6 +22,9 @@ struct Revision {
   int cells = 0;                     ///< 0: the setting's
 };
 
+/// Of a scene that there is not.
+Revision impossible(const std::string& why);
+
 /// How a feature is taken off.
 struct FeatureRow {
   std::string id;  ///< as model.features names it

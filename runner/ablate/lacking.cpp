@@ -11,17 +11,11 @@ namespace {
 
 using Addition = std::optional<Revision>;
 
-Revision not_tried(const std::string& why) {
-  Revision none;
-  none.impossible = why;
-  return none;
-}
-
 /// At a shock; where nothing is compressed it does nothing.
 Addition with_viscosity(const Case& c, const Leaf&) {
   if (c.viscosity || (c.plate && (c.plate->viscosity || !c.plate->solid))) return {};
   if (c.plate && !takes_viscosity(*c.plate->solid))
-    return not_tried("no viscosity is known beside damage or plasticity of a plate");
+    return impossible("no viscosity is known beside damage or plasticity of a plate");
   Revision r;
   r.says = "artificial viscosity in compression, eq. 21 with c1 = c2 = 0.2";
   Node::Entries table;
@@ -51,7 +45,7 @@ Revision finite_displacements() {
 Addition with_finite_displacements(const Case& c, const Leaf& leaf) {
   if (c.convected || (c.plate && !c.plate->solid)) return {};
   const Panel& method = panel(leaf.method);
-  if (contains(method.shows_not, "convection")) return not_tried("its mesh goes with the material either way");
+  if (contains(method.shows_not, "convection")) return impossible("its mesh goes with the material either way");
   if (!c.plate && closes(c, leaf)) return {};  // asked as contact
   return finite_displacements();
 }

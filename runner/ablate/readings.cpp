@@ -8,8 +8,8 @@
 #include <optional>
 #include <utility>
 
-#include "runner/compare/quantities.hpp"
 #include "runner/compare/uncertainty.hpp"
+#include "runner/trade/errors.hpp"
 
 namespace diptych::runner {
 namespace {
@@ -115,35 +115,10 @@ const reports::FieldError* error_of(const Sample& sample, const std::string& fie
   return nullptr;
 }
 
-double largest_in(const std::vector<PointValues>& fields, const std::string& name) {
-  double largest = 0;
-  if (const PointValues* field = field_called(fields, name))
-    for (std::size_t p = 0; p < field->x.size(); ++p) largest = std::max(largest, field->length(p));
-  return largest;
-}
-
-/// A number of a run: probes at their times, and what is measured once a run.
-struct ReadNumber {
-  std::string quantity;
-  double time = std::nan("");
-  double value = 0;
-};
-std::vector<ReadNumber> numbers_of(const Case& c, const Run& run) {
-  std::vector<ReadNumber> numbers;
-  for (const Sample& sample : run.samples)
-    for (const reports::ProbeValue& probe : sample.probes)
-      numbers.push_back({"probe." + probe.id, sample.asked, probe.value});
-  using Sort = Quantity::Sort;
-  for (const std::string& name : quantity_names(c, {Sort::outcome, Sort::gauge_reading, Sort::failure}))
-    if (const auto measured = run.measures.find(name); measured != run.measures.end())
-      numbers.push_back({name, std::nan(""), measured->second});
-  return numbers;
-}
-
 bool same_moment(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 
-const ReadNumber* number_called(const std::vector<ReadNumber>& numbers, const AblatedQuantity& one) {
-  for (const ReadNumber& number : numbers)
+const RunNumber* number_called(const std::vector<RunNumber>& numbers, const AblatedQuantity& one) {
+  for (const RunNumber& number : numbers)
     if (number.quantity == one.quantity && same_moment(number.time, one.time)) return &number;
   return nullptr;
 }
@@ -153,7 +128,7 @@ void judge_uncertainty(const Case& c, const std::vector<const Run*>& meshes, Abl
   std::vector<double> sizes, values;
   for (const Run* run : meshes) {
     const auto numbers = numbers_of(c, *run);
-    const ReadNumber* number = number_called(numbers, one);
+    const RunNumber* number = number_called(numbers, one);
     if (!number || !std::isfinite(number->value)) continue;
     sizes.push_back(run->cell_size);
     values.push_back(number->value);
@@ -171,12 +146,7 @@ void judge_uncertainty(const Case& c, const std::vector<const Run*>& meshes, Abl
 std::vector<AblatedQuantity> fields_with_doubt(const std::vector<const Run*>& meshes) {
   std::vector<AblatedQuantity> all;
   const Run& run = *meshes.back();
-  std::map<std::string, double> largest;
-  for (const Sample& sample : run.samples) {
-    const auto fields = fields_at(sample);
-    for (const PointValues& field : fields)
-      largest[field.name] = std::max(largest[field.name], largest_in(fields, field.name));
-  }
+  std::map<std::string, double> largest = largest_lengths(run);
   for (std::size_t s = 0; s < run.samples.size(); ++s) {
     const Sample& sample = run.samples[s];
     for (const PointValues& field : fields_at(sample)) {
@@ -226,6 +196,15 @@ std::vector<PointValues> fields_at(const Sample& sample) {
   return all;
 }
 
+std::map<std::string, double> largest_lengths(const Run& run) {
+  std::map<std::string, double> largest;
+  for (const Sample& sample : run.samples)
+    for (const PointValues& field : fields_at(sample))
+      for (std::size_t p = 0; p < field.x.size(); ++p)
+        largest[field.name] = std::max(largest[field.name], field.length(p));
+  return largest;
+}
+
 double l2_distance(PointValues a, PointValues b, Axis regardless) {
   if (a.component.size() != b.component.size() || b.x.empty()) return std::nan("");
   for (PointValues* field : {&a, &b}) {
@@ -252,15 +231,15 @@ double l2_distance(PointValues a, PointValues b, Axis regardless) {
 
 std::vector<AblatedQuantity> quantities_of(const Case& c, const std::vector<const Run*>& meshes) {
   std::vector<AblatedQuantity> all;
-  const std::vector<ReadNumber> numbers = numbers_of(c, *meshes.back());
-  for (const ReadNumber& number : numbers) {
+  const std::vector<RunNumber> numbers = numbers_of(c, *meshes.back());
+  for (const RunNumber& number : numbers) {
     AblatedQuantity one;
     one.quantity = number.quantity;
     one.time = number.time;
     one.stands = number.value;
     // What is read at several times is a part of the largest of them.
     double largest = 0;
-    for (const ReadNumber& other : numbers)
+    for (const RunNumber& other : numbers)
       if (other.quantity == number.quantity && std::isfinite(other.value))
         largest = std::max(largest, std::abs(other.value));
     one.scale = largest > 0 ? largest : 1;
@@ -275,7 +254,7 @@ std::vector<AblatedQuantity> quantities_of(const Case& c, const std::vector<cons
 void compare(const Case& c, const Run& stands, const ChangedRun& other, std::vector<AblatedQuantity>& quantities) {
   const Run& changed = *other.run;
   const std::vector<double>& times = other.scene->times;
-  const std::vector<ReadNumber> numbers = numbers_of(*other.scene, changed);
+  const std::vector<RunNumber> numbers = numbers_of(*other.scene, changed);
   // Sample times go by their place: those of the changed scene may be written in another unit.
   const auto sample_of = [&](double time) {
     const auto at = std::find(c.times.begin(), c.times.end(), time);
@@ -295,12 +274,12 @@ void compare(const Case& c, const Run& stands, const ChangedRun& other, std::vec
     }
     AblatedQuantity as_there = one;
     if (!std::isnan(one.time) && sample_of(one.time) < times.size()) as_there.time = times[sample_of(one.time)];
-    if (const ReadNumber* number = number_called(numbers, as_there)) {
+    if (const RunNumber* number = number_called(numbers, as_there)) {
       one.changed = number->value;
       one.change = std::abs(one.changed - one.stands) / one.scale;
     }
   }
-  for (const ReadNumber& number : numbers) {
+  for (const RunNumber& number : numbers) {
     if (!std::isnan(number.time)) continue;
     const bool known = std::any_of(quantities.begin(), quantities.end(),
                                    [&](const AblatedQuantity& one) { return one.quantity == number.quantity; });

@@ -1,6 +1,7 @@
 // What a run says: its numbers and its fields, how far they are from another run's, and how uncertain they are.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,9 @@ struct PointValues {
 
 /// All fields that were kept, see Running::keep_fields.
 std::vector<PointValues> fields_at(const reports::Sample&);
+
+/// The largest length of each field's values at all sample times.
+std::map<std::string, double> largest_lengths(const reports::Run&);
 
 enum class Axis { none, x, y };
 

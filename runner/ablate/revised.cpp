@@ -22,34 +22,12 @@ Node list_node(const std::vector<Value>& values) {
   return {{}, std::move(list)};
 }
 
-/// A value as list --declarations writes it, whose lists have spaces between their entries.
-Node declared_as(const std::string& text) {
-  std::string toml;
-  bool quoted = false;
-  int depth = 0;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] == '"' && (i == 0 || text[i - 1] != '\\')) quoted = !quoted;
-    if (!quoted && text[i] == '[') ++depth;
-    if (!quoted && text[i] == ']') --depth;
-    toml += !quoted && depth > 0 && text[i] == ' ' ? ',' : text[i];
-  }
-  return value_in(toml);
-}
-
 /// What the variant changes of the file, which then needs none.
 std::vector<Change> variant_as_changes(const Case& c, const std::string& id) {
   std::vector<Change> changes;
-  if (!id.empty()) {
-    const std::string table = "variant[" + id + "].";
-    if (const auto without = c.scene.find(table + "without"); without != c.scene.end()) {
-      const Node keys = declared_as(without->second);
-      for (const Node& key : *keys.as<Node::List>()) changes.push_back({*key.as<std::string>(), {}});
-    }
-    const std::string set = table + "set.";
-    for (const auto& [key, value] : c.scene)
-      if (key.starts_with(set)) changes.push_back({key.substr(set.size()), declared_as(value)});
-  }
-  if (!c.variants.empty()) changes.push_back({"variant", {}});
+  for (const PlateVariant& variant : c.variants)
+    if (variant.id == id) changes = variant.changes;
+  if (!c.variants.empty()) changes.push_back({"variant"});
   return changes;
 }
 

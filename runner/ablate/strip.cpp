@@ -22,11 +22,7 @@ struct Row {
 
 Variation variation_along(Axis axis, const reports::Run& run) {
   const std::size_t along = axis == Axis::y ? 1 : 0;
-  std::map<std::string, double> largest;
-  for (const reports::Sample& sample : run.samples)
-    for (const PointValues& field : fields_at(sample))
-      for (std::size_t p = 0; p < field.x.size(); ++p)
-        largest[field.name] = std::max(largest[field.name], field.length(p));
+  std::map<std::string, double> largest = largest_lengths(run);
   Variation found;
   const auto note = [&](double part, const std::string& field, double time) {
     if (part > found.part || std::isnan(part)) found = {part, field, time};

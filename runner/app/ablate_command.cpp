@@ -16,9 +16,7 @@
 namespace diptych::runner {
 
 int ablate_command(const Options& options, const std::atomic<bool>& cancelled) {
-  const std::vector<Case> cases = select_cases(options.selectors);
-  if (cases.size() != 1)
-    throw InputError(fmt::format("{}: {} cases; allowed: one", listed(options.selectors), cases.size()));
+  const Case c = select_one_case(options.selectors);
   prepare(options.out);
   AblationPlan plan;
   plan.scene = options.scene;
@@ -26,7 +24,7 @@ int ablate_command(const Options& options, const std::atomic<bool>& cancelled) {
   plan.rounds = options.rounds;
   Running running{threads_of(options), &cancelled};
   running.progress = progress();
-  const reports::AblationStudy study = ablate(cases.front(), plan, running);
+  const reports::AblationStudy study = ablate(c, plan, running);
   fmt::print("{}", reports::ablation_text(study));
   const auto folder = options.out / "ablate";
   reports::write_file(folder / (study.case_id + ".csv"), reports::ablation_csv(study));

@@ -154,6 +154,12 @@ std::vector<Case> select_cases(const std::vector<std::string>& selectors) {
   return merged;
 }
 
+Case select_one_case(const std::vector<std::string>& selectors) {
+  std::vector<Case> cases = select_cases(selectors);
+  if (cases.size() != 1) throw InputError(fmt::format("{}: {} cases; allowed: one", listed(selectors), cases.size()));
+  return std::move(cases.front());
+}
+
 void keep_runs(std::vector<Case>& cases, const std::vector<std::string>& labels) {
   Names known;
   std::vector<bool> met(labels.size());

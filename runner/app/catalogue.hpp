@@ -15,6 +15,9 @@ std::vector<Case> all_cases();
 /// that gate is kept. Throws InputError where a selector fits nothing, with the nearest id.
 std::vector<Case> select_cases(const std::vector<std::string>& selectors);
 
+/// The one case that the selectors mean. Throws InputError where they mean none or several.
+Case select_one_case(const std::vector<std::string>& selectors);
+
 /// Keeps of each case the runs whose label, "mpm-musl N=200 C=0.5 ppc=1", is one of `labels` or fits one that is a
 /// pattern, and only cases that have some. Throws InputError where one fits no run, with the nearest that there are.
 void keep_runs(std::vector<Case>&, const std::vector<std::string>& labels);

@@ -17,12 +17,10 @@
 namespace diptych::runner {
 
 int stability_command(const Options& options, const std::atomic<bool>& cancelled) {
-  const std::vector<Case> cases = select_cases(options.selectors);
-  if (cases.size() != 1)
-    throw InputError(fmt::format("{}: {} cases; allowed: one", listed(options.selectors), cases.size()));
+  const Case c = select_one_case(options.selectors);
   prepare(options.out);
   const reports::StabilityMap map =
-      stability_map(cases.front(), {options.over, options.steps, threads_of(options), &cancelled, progress()});
+      stability_map(c, {options.over, options.steps, threads_of(options), &cancelled, progress()});
   if (cancelled) return unstable_or_error;  // what was stopped is neither stable nor unstable
   fmt::print("{}\n", reports::stability_text(map, options.within));
   const auto folder = options.out / "stability";

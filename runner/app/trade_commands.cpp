@@ -32,9 +32,7 @@ struct Asked {
 };
 
 Asked asked_of_trade(const Options& options) {
-  const std::vector<Case> cases = select_cases(options.selectors);
-  if (cases.size() != 1)
-    throw InputError(fmt::format("{}: {} cases; allowed: one", listed(options.selectors), cases.size()));
+  const Case c = select_one_case(options.selectors);
   Asked asked;
   asked.timing.rounds = options.rounds;
   std::vector<std::string> of_case;
@@ -49,7 +47,7 @@ Asked asked_of_trade(const Options& options) {
     if (*std::max_element(asked.timing.threads.begin(), asked.timing.threads.end()) > 1024)
       throw InputError("--over threads: allowed: 1 to 1024");
   }
-  asked.cases = with_values(cases.front(), of_case);
+  asked.cases = with_values(c, of_case);
   return asked;
 }
 

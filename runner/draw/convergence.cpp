@@ -84,8 +84,7 @@ void draw_convergence(const Case& c, const FigureSpec& spec, reports::Case& resu
         const double h = series.size[k], value = series.value[k];
         if (h > 8.5 * finest) continue;  // what is coarser is off by more than the rest of the panel
         coarsest = std::max(coarsest, h);
-        values.x.push_back(h);
-        values.y.push_back(value);
+        values.add(h, value);
         hold(value);
         if (!series.uncertainty) continue;
         const double u = series.uncertainty->of(k);

@@ -63,10 +63,7 @@ const reports::GaugeHistory* history_at(const reports::Run* run, const std::stri
 
 reports::Curve in_figure_units(const std::vector<double>& time, const std::vector<double>& stress) {
   reports::Curve curve;
-  for (std::size_t n = 0; n < time.size(); ++n) {
-    curve.x.push_back(time[n] * 1e6);
-    curve.y.push_back(-stress[n] / 1e9);
-  }
+  for (std::size_t n = 0; n < time.size(); ++n) curve.add(time[n] * 1e6, -stress[n] / 1e9);
   return curve;
 }
 

@@ -40,8 +40,7 @@ reports::Curve part_between(const reports::Curve& paths, double from, double to)
   for (std::size_t i = 0; i < paths.x.size(); ++i) {
     if (!std::isnan(paths.y[i]) && !inside(i) && !inside(i + 1) && !(i > 0 && inside(i - 1))) continue;
     if (std::isnan(paths.y[i]) && (part.x.empty() || std::isnan(part.x.back()))) continue;
-    part.x.push_back(paths.x[i]);
-    part.y.push_back(paths.y[i]);
+    part.add(paths.x[i], paths.y[i]);
   }
   return part;
 }

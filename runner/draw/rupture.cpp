@@ -77,16 +77,14 @@ void draw_rupture(const Case& c, const FigureSpec& spec, reports::Case& result) 
         const double D = law.damage(std::clamp(reading(*run, time, probe), 0.0, cap));
         if (std::isnan(load) && D >= ruptured && !damage.y.empty() && damage.y.back() < ruptured)
           load = damage.x.back() + (p / mega - damage.x.back()) * (ruptured - damage.y.back()) / (D - damage.y.back());
-        damage.x.push_back(p / mega);
-        damage.y.push_back(D);
+        damage.add(p / mega, D);
       }
       if (cells == meshes.back()) over_load.series.push_back({name_of_method(method), kind_of_method(method), damage});
       if (std::isnan(load)) {
         missing += fmt::format("{}{} on {} cells", missing.empty() ? "" : ", ", name_of_method(method), cells);
         continue;
       }
-      rupture.x.push_back(size);
-      rupture.y.push_back(load);
+      rupture.add(size, load);
       least = std::min(least, load);
       most = std::max(most, load);
       largest_size = std::max(largest_size, size);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <cmath>
+#include <sstream>
 
 namespace diptych::runner {
 namespace {
@@ -55,6 +57,20 @@ std::string words(const std::string& text) {
 }
 
 std::string words(const std::vector<double>& values) { return '[' + joined(values) + ']'; }
+
+Names parts_of(const std::string& text, char between) {
+  Names parts;
+  std::istringstream in(text);
+  for (std::string part; std::getline(in, part, between);) parts.push_back(part);
+  return parts;
+}
+
+std::optional<double> number_in(const std::string& text) {
+  double value = 0;
+  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (problem != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return {};
+  return value;
+}
 
 bool contains(const Names& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();

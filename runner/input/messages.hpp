@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <iterator>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -37,6 +38,11 @@ std::string listed(const Values& values, const char* between = ", ") {
   for (const auto& value : values) out += (&value == &*std::begin(values) ? "" : between) + fmt::format("{}", value);
   return out;
 }
+
+/// What stands between each two of these characters.
+Names parts_of(const std::string& text, char between);
+/// The finite number that all of the text is, or nothing.
+std::optional<double> number_in(const std::string& text);
 
 bool contains(const Names&, const std::string& name);
 

@@ -246,46 +246,6 @@ void read_scene(Table& file, Case& c) {
                           ", which sets its own start and is not loaded; allowed: without");
 }
 
-/// The value at keys[from], keys[from + 1], ... of a tree of tables, made where it is missing.
-void put(Node& node, const Names& keys, std::size_t from, const Node& value, Position at) {
-  if (from == keys.size()) {
-    node = value;
-    return;
-  }
-  if (!node.as<Node::Entries>()) node.value = Node::Entries{};
-  auto& entries = std::get<Node::Entries>(node.value);
-  auto one = std::find_if(entries.begin(), entries.end(), [&](const Node::Entry& e) { return e.key == keys[from]; });
-  if (one == entries.end()) {
-    one = std::lower_bound(entries.begin(), entries.end(), keys[from],
-                           [](const Node::Entry& e, const std::string& key) { return e.key < key; });
-    one = entries.insert(one, {keys[from], at, Node{at, Node::DateOrTime{}}});
-  }
-  put(one->value, keys, from + 1, value, at);
-}
-
-/// Whether it was there.
-bool take(Node& node, const Names& keys, std::size_t from) {
-  auto* entries = std::get_if<Node::Entries>(&node.value);
-  if (!entries) return false;
-  const auto one =
-      std::find_if(entries->begin(), entries->end(), [&](const Node::Entry& e) { return e.key == keys[from]; });
-  if (one == entries->end()) return false;
-  if (from + 1 < keys.size()) return take(one->value, keys, from + 1);
-  entries->erase(one);
-  return true;
-}
-
-Names split_key(const std::string& key) {
-  Names parts{""};
-  for (const char ch : key) {
-    if (ch == '.')
-      parts.emplace_back();
-    else
-      parts.back() += ch;
-  }
-  return parts;
-}
-
 /// Another scene: the file's with some keys set or left out.
 void read_variant(Table& t, Table& file, Case& c) {
   PlateVariant variant;
@@ -295,19 +255,28 @@ void read_variant(Table& t, Table& file, Case& c) {
   const Names allowed{"plate",     "material", "damage",     "diffusion", "supports", "flyer",
                       "viscosity", "load",     "body_force", "initial",   "exact"};
   const auto known = [&](const Place& place, const std::string& key) {
-    if (contains(allowed, split_key(key).front())) return true;
+    if (contains(allowed, key.substr(0, key.find('.')))) return true;
     place.refuse(words(key), "keys of the scene's tables, like \"damage.rate\": " + joined(allowed));
     return false;
   };
   for (const std::string& key : t.get("without", set_of(text()))) {
-    variant.keys.push_back(key);
-    if (known(t.place("without"), key) && !take(scene, split_key(key), 0))
+    variant.changes.push_back({key});
+    if (!known(t.place("without"), key)) continue;
+    try {
+      apply(variant.changes.back(), scene);
+    } catch (const InputError&) {
       t.place("without").refuse(words(key) + ", which the scene lacks", "keys that it has");
+    }
   }
   t.maybe_table("set", [&](Table& s) {
     for (const auto& entry : s.entries()) {
-      variant.keys.push_back(entry.key);
-      if (known(s.place(entry.key), entry.key)) put(scene, split_key(entry.key), 0, entry.value, entry.at);
+      variant.changes.push_back({entry.key, entry.value});
+      if (!known(s.place(entry.key), entry.key)) continue;
+      try {
+        apply(variant.changes.back(), scene, entry.at);
+      } catch (const InputError& problem) {
+        s.place(entry.key).say(problem.what());
+      }
     }
   });
   if (!t.has("set") && !t.has("without")) t.say("found no change; allowed: set or without");

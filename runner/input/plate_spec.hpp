@@ -11,6 +11,7 @@
 #include "hinge/diffusion/concentration.hpp"
 #include "hinge/diffusion/dilatancy.hpp"
 #include "hinge/scene/plate.hpp"
+#include "runner/input/toml_table.hpp"
 
 namespace diptych::runner {
 
@@ -113,7 +114,7 @@ struct GaugeSpec {
 struct PlateVariant {
   std::string id, says;
   PlateSpec plate;
-  std::vector<std::string> keys = {};  ///< which it sets or leaves out
+  std::vector<Change> changes = {};  ///< of the file's scene
 };
 
 }  // namespace diptych::runner

@@ -4,6 +4,7 @@
 #include <toml++/toml.h>
 
 #include <cmath>
+#include <cstddef>
 
 #include "runner/input/messages.hpp"
 
@@ -85,11 +86,29 @@ void declare(const std::string& path, const Node& node, Declaration& into) {
   }
 }
 
-/// The entry of a list of tables that a key means by its id, or by its number from 0.
-Node* entry_called(Node::List& list, const std::string& name) {
-  for (std::size_t i = 0; i < list.size(); ++i)
-    if (name == id_of(list[i]) || (id_of(list[i]).empty() && name == std::to_string(i))) return &list[i];
-  return nullptr;
+/// What a key calls an entry of a list of tables: its id, or its number from 0.
+std::string called(const Node::List& list, std::size_t i) {
+  const std::string id = id_of(list[i]);
+  return id.empty() ? std::to_string(i) : id;
+}
+
+/// The end where there is none.
+Node::List::iterator entry_called(Node::List& list, const std::string& name) {
+  std::size_t i = 0;
+  while (i < list.size() && name != called(list, i)) ++i;
+  return list.begin() + static_cast<std::ptrdiff_t>(i);
+}
+
+Names entries_in(const std::string& key, const Node::List& list) {
+  Names names;
+  for (std::size_t i = 0; i < list.size(); ++i) names.push_back(key + '[' + called(list, i) + ']');
+  return names;
+}
+
+Names keys_of(const Node::Entries& entries) {
+  Names keys;
+  for (const Node::Entry& one : entries) keys.push_back(one.key);
+  return keys;
 }
 
 /// The part of a key up to the next dot outside of brackets, taken off it.
@@ -100,57 +119,6 @@ std::string first_part(std::string& key) {
   const std::string part = key.substr(0, end);
   key = end == key.npos ? "" : key.substr(end + 1);
   return part;
-}
-
-void apply(const Change& change, Node& root) {
-  Node* at = &root;
-  std::string rest = change.key, gone;
-  const auto refuse = [&](const std::string& part, const Names& known) {
-    const std::string near = suggestion(part, known);
-    throw InputError(fmt::format("{}: there is no {}{}; allowed: {}{}{}", change.key, gone.empty() ? "" : gone + '.',
-                                 part, listed(known), near.empty() ? "" : "; ", near));
-  };
-  while (!rest.empty()) {
-    const std::string part = first_part(rest);
-    const std::size_t bracket = part.find('[');
-    const std::string name = part.substr(0, bracket);
-    if (at->value.index() == 0) at->value.emplace<Node::Entries>();  // a table that is not there yet
-    auto* entries = std::get_if<Node::Entries>(&at->value);
-    if (!entries) refuse(part, {});
-    const auto entry =
-        std::find_if(entries->begin(), entries->end(), [&](const Node::Entry& one) { return one.key == name; });
-    if (entry == entries->end()) {
-      Names known;
-      for (const Node::Entry& one : *entries) known.push_back(one.key);
-      if (!change.value || bracket != part.npos) refuse(name, known);
-      const auto place =
-          std::find_if(entries->begin(), entries->end(), [&](const auto& one) { return one.key > name; });
-      at = &entries->insert(place, {name, {}, {}})->value;
-    } else if (!change.value && rest.empty() && bracket == part.npos) {
-      entries->erase(entry);
-      return;
-    } else {
-      at = &entry->value;
-    }
-    if (bracket != part.npos) {
-      auto* list = std::get_if<Node::List>(&at->value);
-      Node* one = list ? entry_called(*list, part.substr(bracket + 1, part.size() - bracket - 2)) : nullptr;
-      if (!one) {
-        Names known;
-        for (std::size_t i = 0; list && i < list->size(); ++i)
-          known.push_back(
-              fmt::format("{}[{}]", name, id_of((*list)[i]).empty() ? std::to_string(i) : id_of((*list)[i])));
-        refuse(part, known);
-      }
-      if (!change.value && rest.empty()) {
-        list->erase(list->begin() + (one - list->data()));
-        return;
-      }
-      at = one;
-    }
-    gone += (gone.empty() ? "" : ".") + part;
-  }
-  if (change.value) *at = *change.value;
 }
 
 Rule<double> finite(const std::string& range, bool (*within)(double), const std::string& hint = "") {
@@ -192,6 +160,43 @@ std::string words(const Node& node) {
   }
   if (const auto* list = node.as<Node::List>()) return list->empty() ? "an empty list" : "a list";
   return node.as<Node::Entries>() ? "a table" : "a date or time";
+}
+
+void apply(const Change& change, Node& root, Position position) {
+  Node* at = &root;
+  std::string rest = change.key, before;
+  const auto refuse = [&](const std::string& part, const Names& known) {
+    throw InputError(fmt::format("{}: there is no {}{}; allowed: {}{}", change.key, before, part, listed(known),
+                                 hint_of(part, known)));
+  };
+  while (!rest.empty()) {
+    const std::string part = first_part(rest);
+    const std::size_t bracket = part.find('[');
+    const bool takes_here = !change.value && rest.empty();
+    const std::string name = part.substr(0, bracket);
+    if (at->value.index() == 0) at->value.emplace<Node::Entries>();  // a table that is not there yet
+    auto* entries = std::get_if<Node::Entries>(&at->value);
+    if (!entries) refuse(part, {});
+    auto entry = std::find_if(entries->begin(), entries->end(), [&](const Node::Entry& e) { return e.key == name; });
+    if (entry == entries->end()) {
+      if (!change.value || bracket != part.npos) refuse(name, keys_of(*entries));
+      const auto place = std::find_if(entries->begin(), entries->end(), [&](const auto& e) { return e.key > name; });
+      entry = entries->insert(place, {name, position, {position, {}}});
+    }
+    if (bracket == part.npos) {
+      if (takes_here) return static_cast<void>(entries->erase(entry));
+      at = &entry->value;
+    } else {
+      auto* list = std::get_if<Node::List>(&entry->value.value);
+      if (!list) refuse(part, {});
+      const auto one = entry_called(*list, part.substr(bracket + 1, part.size() - bracket - 2));
+      if (one == list->end()) refuse(part, entries_in(name, *list));
+      if (takes_here) return static_cast<void>(list->erase(one));
+      at = &*one;
+    }
+    before += part + '.';
+  }
+  if (change.value) *at = *change.value;
 }
 
 Node value_in(const std::string& text) {

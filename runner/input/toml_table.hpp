@@ -60,8 +60,11 @@ Node value_in(const std::string& text);
 /// a value the key is taken out.
 struct Change {
   std::string key;  ///< "material.nu", "load[0].traction", "sample.probes[tip].at"
-  std::optional<Node> value;
+  std::optional<Node> value = {};
 };
+/// Changes a tree of tables; tables on the way to a value are made where they are missing, where `at` says. Throws
+/// InputError where what is to be taken out, or an entry of a list on the way, is not there, with what there is.
+void apply(const Change&, Node& root, Position at = {});
 
 /// Where a value stands in the file, and what it is called there.
 struct Place {

@@ -6,16 +6,8 @@
 #include "runner/input/build.hpp"
 
 namespace diptych::runner {
-namespace {
 
 using analytic::BarQuantity;
-
-void add_break(reports::Curve& curve) {
-  curve.x.push_back(std::nan(""));
-  curve.y.push_back(std::nan(""));
-}
-
-}  // namespace
 
 const Field& field_of(const Snapshot& s, BarQuantity q) {
   return q == BarQuantity::stress ? s.stress : q == BarQuantity::velocity ? s.velocity : s.displacement;
@@ -29,14 +21,13 @@ reports::Curve polyline(const Snapshot& snapshot, BarQuantity q, const Leaf& lea
     const auto place = [&](std::size_t i, const std::vector<double>& x) {
       return moves ? x[i] + displacement.value[i] : x[i];  // particles and FEM's nodes each carry one displacement
     };
-    if (b > 0) add_break(curve);
+    if (b > 0) curve.end_line();
     for (std::size_t i = 0; i < field.value.size(); ++i) {
       if (steps) {
         curve.x.insert(curve.x.end(), {place(i, field.edges), place(i + 1, field.edges)});
         curve.y.insert(curve.y.end(), {field.value[i], field.value[i]});
       } else {
-        curve.x.push_back(place(i, field.x));
-        curve.y.push_back(field.value[i]);
+        curve.add(place(i, field.x), field.value[i]);
       }
     }
   }
@@ -63,10 +54,9 @@ reports::Curve exact_line(const analytic::ExactSolution& exact, BarQuantity q, c
                          [&](const analytic::Front& front) { return std::abs(x - front.position) < 0.9 * side; });
     });
     std::sort(xs.begin(), xs.end());
-    if (!curve.x.empty()) add_break(curve);
+    if (!curve.x.empty()) curve.end_line();
     for (const double x : xs) {
-      curve.x.push_back(moves ? x + exact.at(BarQuantity::displacement, x, time) : x);
-      curve.y.push_back(exact.at(q, x, time));
+      curve.add(moves ? x + exact.at(BarQuantity::displacement, x, time) : x, exact.at(q, x, time));
     }
   }
   return curve;
@@ -104,15 +94,14 @@ void trace_paths(const std::vector<Snapshot>& snapshots, const Scene& scene, con
   for (std::size_t b = 0; b < scene.bars.size(); ++b) {
     for (int k = 0; k <= parts; ++k) {
       if (!run.paths.x.empty()) {
-        add_break(run.paths);
+        run.paths.end_line();
         run.path_origins.push_back(std::nan(""));
       }
-      if (!run.exact_paths.x.empty()) add_break(run.exact_paths);
+      if (!run.exact_paths.x.empty()) run.exact_paths.end_line();
       for (const Snapshot& s : snapshots) {
         const Field u = s.displacement.of_bar(b);
         const std::size_t i = (u.x.size() - 1) * static_cast<std::size_t>(k) / parts;
-        run.paths.x.push_back(u.x[i] + u.value[i]);
-        run.paths.y.push_back(u.time);
+        run.paths.add(u.x[i] + u.value[i], u.time);
         run.path_origins.push_back(u.x[i]);
         if (!exact || !exact->gives(BarQuantity::displacement)) continue;
         const double length = scene.bars[b].length, inside = 1e-9 * length;
@@ -120,8 +109,7 @@ void trace_paths(const std::vector<Snapshot>& snapshots, const Scene& scene, con
         double place = x + exact->at(BarQuantity::displacement, x, u.time);
         // A struck face without hardening stands still while what is next to it flows into it.
         if (k == (b == 0 ? parts : 0)) place += (b == 0 ? -1 : 1) * exact->strain_of_face(u.time);
-        run.exact_paths.x.push_back(place);
-        run.exact_paths.y.push_back(u.time);
+        run.exact_paths.add(place, u.time);
       }
     }
   }

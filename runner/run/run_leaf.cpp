@@ -147,6 +147,11 @@ Outlook outlook(const Case& c, const Leaf& leaf) {
   });
 }
 
+double updates_ahead(const Case& whole, const Leaf& leaf) {
+  const auto c = case_of(whole, leaf);
+  return outlook(*c, leaf).updates(describe(*c, leaf).unknowns);
+}
+
 reports::Run run_leaf(const Case& c, const Leaf& leaf, const TimeStep& step, const Running& running) {
   return built(c, leaf, [&](const auto& it) { return measured(it, step, running); });
 }

@@ -38,7 +38,8 @@ reports::Run describe(const Case&, const Leaf&);
 /// What a run will take.
 struct Outlook {
   TimeStep step;
-  double duration = 0;  ///< [s]
+  double duration = 0;                                                             ///< [s]
+  double updates(int unknowns) const { return unknowns * duration / step.asked; }  ///< of unknowns, about so many
 };
 Outlook outlook(const Case&, const Leaf&);
 inline TimeStep step_of(const Case& c, const Leaf& leaf) { return outlook(c, leaf).step; }
@@ -49,5 +50,8 @@ reports::Run run_leaf(const Case&, const Leaf&, const TimeStep&, const Running& 
 
 /// The same of a case as it is written, with the step that the leaf asks for.
 reports::Run run_leaf(const Case&, const Leaf&, const Running& = {});
+
+/// How many updates of unknowns a run will take, about; the case as it is written.
+double updates_ahead(const Case&, const Leaf&);
 
 }  // namespace diptych::runner

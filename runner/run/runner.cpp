@@ -122,7 +122,7 @@ std::vector<reports::Case> run_cases(const std::vector<Case>& cases, const Runni
       task.refused = problem.what();
     }
     task.step = ahead.step;
-    task.work = results[task.which].runs[task.slot].unknowns * ahead.duration / ahead.step.asked;
+    task.work = ahead.updates(results[task.which].runs[task.slot].unknowns);
   });
   for (const Task& task : tasks)
     if (!task.refused.empty()) throw InputError(task.refused);
@@ -169,15 +169,14 @@ std::vector<reports::Case> run_cases(const std::vector<Case>& cases, const Runni
       if (running.finished && result.status != "left out") running.finished(to.which, result);
       if (running.progress) running.progress(++done, total);
     };
-    const reports::Run measured = task.same.empty() ? reports::Run{} : run;
-    hand_over(task, run);
     for (const Task& other : task.same) {
       reports::Run& copy = results[other.which].runs[other.slot];
       const std::string id = copy.case_id;
-      copy = measured;
+      copy = run;
       copy.case_id = id;
       hand_over(other, copy);
     }
+    hand_over(task, run);
   });
   return results;
 }

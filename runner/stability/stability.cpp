@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <charconv>
 #include <mutex>
 #include <stdexcept>
 
@@ -41,24 +40,10 @@ void thin_out(Case& c, bool cells) {
   }
 }
 
-std::vector<std::string> words_between_spaces(const std::string& text) {
-  std::vector<std::string> all;
-  std::size_t from = 0;
-  while (from < text.size()) {
-    const std::size_t to = std::min(text.find(' ', from), text.size());
-    if (to > from) all.push_back(text.substr(from, to - from));
-    from = to + 1;
-  }
-  return all;
-}
-
-std::optional<double> number_after(const std::string& text, const std::string& begin) {
-  for (const std::string& word : words_between_spaces(text)) {
-    if (!word.starts_with(begin)) continue;
-    double value = 0;
-    const auto [end, problem] = std::from_chars(word.data() + begin.size(), word.data() + word.size(), value);
-    if (problem == std::errc() && end == word.data() + word.size()) return value;
-  }
+/// The number behind `begin` in one of the words of a label.
+std::optional<double> number_after(const std::string& label, const std::string& begin) {
+  for (const std::string& word : parts_of(label, ' '))
+    if (const auto value = word.starts_with(begin) ? number_in(word.substr(begin.size())) : std::nullopt) return value;
   return {};
 }
 
@@ -96,7 +81,7 @@ std::string axis_of(const std::vector<Setting>& settings, const std::vector<std:
 std::string without_axis(const std::string& label, const std::string& axis) {
   const std::string named = axis == "cells" ? "N" : axis == "particles" || axis == "position" ? "ppc" : axis;
   Names kept;
-  for (const std::string& word : words_between_spaces(label))
+  for (const std::string& word : parts_of(label, ' '))
     if (axis.empty() || !word.starts_with(named + "=")) kept.push_back(word);
   return listed(kept, " ");
 }
@@ -104,7 +89,7 @@ std::string without_axis(const std::string& label, const std::string& axis) {
 void name_setting(const std::string& axis, Setting& setting) {
   const reports::Run run = describe(*setting.whole, setting.leaf);
   Names kept;
-  for (const std::string& word : words_between_spaces(run.label()))
+  for (const std::string& word : parts_of(run.label(), ' '))
     if (!word.starts_with("C=")) kept.push_back(word);
   reports::StabilityLimit& limit = setting.limit;
   limit.label = listed(kept, " ");
@@ -173,10 +158,8 @@ reports::StabilityMap stability_map(const Case& c, const StabilityPlan& plan) {
   });
 
   const Range range = range_tried(c);
-  reports::StabilityMap map{c.id,  c.title, {}, axis, plan.steps, range.least, range.most, growth_of_instability,
-                            false, {}};
+  reports::StabilityMap map{c.id, c.title, {}, axis, plan.steps, range.least, range.most, growth_of_instability, {}};
   map.number = kind_of(c) == SceneKind::diffusion ? "diffusion number d Δt/h²" : "Courant number c Δt/h";
-  map.cancelled = plan.cancelled && *plan.cancelled;
   for (Setting& setting : settings) map.limits.push_back(std::move(setting.limit));
   return map;
 }

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 
 #include "runner/draw/figure_runs.hpp"
 #include "runner/panel.hpp"
+#include "runner/trade/by_setting.hpp"
 
 namespace diptych::runner {
 namespace {
@@ -37,32 +37,12 @@ bool spans_powers(const std::vector<double>& values) {
   return *least > 0 && *most > wide * *least;
 }
 
-void add_at(reports::Curve& curve, double x, double y) {
-  curve.x.push_back(x);
-  curve.y.push_back(y);
-}
-
-/// Settings in the order of first mention, each with its limits in the order of their axis's values.
-std::vector<std::vector<const StabilityLimit*>> curves_of(const reports::StabilityMap& map) {
-  std::vector<std::vector<const StabilityLimit*>> curves;
-  for (const StabilityLimit& one : map.limits) {
-    if (!one.at || !(one.limit() || one.theory)) continue;
-    const auto same = [&](const auto& curve) { return curve.front()->setting == one.setting; };
-    const auto known = std::find_if(curves.begin(), curves.end(), same);
-    if (known == curves.end())
-      curves.push_back({&one});
-    else
-      known->push_back(&one);
-  }
-  for (auto& curve : curves)
-    std::sort(curve.begin(), curve.end(), [](const auto* a, const auto* b) { return *a->at < *b->at; });
-  return curves;
-}
-
 }  // namespace
 
 std::optional<reports::Figure> stability_figure(const reports::StabilityMap& map) {
-  const auto curves = curves_of(map);
+  const auto curves = by_setting(
+      map.limits, [](const StabilityLimit& one) { return one.at && (one.limit() || one.theory); },
+      [](const StabilityLimit& a, const StabilityLimit& b) { return *a.at < *b.at; });
   std::vector<double> across, up;
   const auto [label, number_of, powers] = across_of(map.axis);
   for (const auto& curve : curves)
@@ -100,11 +80,10 @@ std::optional<reports::Figure> stability_figure(const reports::StabilityMap& map
     for (const StabilityLimit* one : curve) {
       const double x = x_of(number_of(*one->at));
       missing += !one->limit();
-      if (const auto limit = one->limit()) add_at(series.curve, x, y_of(*limit));
-      if (one->theory) add_at(theory, x, y_of(*one->theory));
+      if (const auto limit = one->limit()) series.curve.add(x, y_of(*limit));
+      if (one->theory) theory.add(x, y_of(*one->theory));
     }
-    constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    if (!theory.x.empty()) add_at(theory, none, none);  // ends its line
+    if (!theory.x.empty()) theory.end_line();
     panel->series.push_back(std::move(series));
   }
   for (reports::Figure::Panel& panel : figure.panels) {

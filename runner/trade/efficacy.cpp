@@ -13,8 +13,7 @@ namespace diptych::runner {
 reports::Figure efficacy(const reports::Trade& trade, const reports::Aim& aim, const std::string& id) {
   using reports::Cost;
   using reports::TradePoint;
-  const bool timed = std::any_of(trade.points.begin(), trade.points.end(),
-                                 [](const TradePoint& p) { return p.completed() && p.timed.rounds > 0; });
+  const bool timed = is_timed(trade);
   const Cost cost = timed ? Cost::seconds : Cost::work;
   const std::string unit = timed ? "seconds" : "updates";
   reports::Figure figure;

@@ -41,17 +41,26 @@ struct Family {
 
 }  // namespace
 
-std::vector<RunNumber> readings(const Case& c, const reports::Run& run) {
+std::vector<RunNumber> numbers_of(const Case& c, const reports::Run& run) {
   std::vector<RunNumber> all;
   for (const reports::Sample& sample : run.samples)
     for (const reports::ProbeValue& probe : sample.probes)
       all.push_back({"probe." + probe.id, sample.asked, probe.value});
-  for (const std::string& name : quantity_names(c, {Sort::outcome, Sort::gauge_reading, Sort::failure})) {
-    const auto found = run.measures.find(name);
-    if (found == run.measures.end() || c.times.empty()) continue;
-    all.push_back({name, c.times.back(), found->second, exact_error(c, run, name, found->second)});
-  }
+  for (const std::string& name : quantity_names(c, {Sort::outcome, Sort::gauge_reading, Sort::failure}))
+    if (const auto found = run.measures.find(name); found != run.measures.end())
+      all.push_back({name, std::nan(""), found->second});
+  return all;
+}
+
+std::vector<RunNumber> readings(const Case& c, const reports::Run& run) {
+  if (c.times.empty()) return {};
+  std::vector<RunNumber> all = numbers_of(c, run);
   std::erase_if(all, [](const RunNumber& one) { return !std::isfinite(one.value); });
+  for (RunNumber& one : all) {
+    if (!std::isnan(one.time)) continue;
+    one.time = c.times.back();
+    one.error = exact_error(c, run, one.quantity, one.value);
+  }
   return all;
 }
 

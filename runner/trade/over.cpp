@@ -3,10 +3,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
-#include <sstream>
 
 #include "runner/app/case_file.hpp"
 #include "runner/input/case_tables.hpp"
@@ -14,20 +12,6 @@
 
 namespace diptych::runner {
 namespace {
-
-std::vector<std::string> parts_of(const std::string& text, char between) {
-  std::vector<std::string> parts;
-  std::istringstream in(text);
-  for (std::string part; std::getline(in, part, between);) parts.push_back(part);
-  return parts;
-}
-
-std::optional<double> number_in(const std::string& text) {
-  double value = 0;
-  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (problem != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return {};
-  return value;
-}
 
 [[noreturn]] void refuse_values(const std::string& key, const std::string& found, const std::string& allowed) {
   throw InputError(fmt::format("--over {}: found {}; allowed: {}", key, words(found), allowed));

@@ -156,10 +156,9 @@ std::string words_of(const Trade& trade, const Target& target, const Pick& found
     if (!(sure_error(point, target) <= target.error) || !within_limits(point, target) ||
         !(price(trade, target, i) < price(trade, target, *found.best)))
       continue;
-    text +=
-        fmt::format("  passed over: {}: {}, {:.2g} times the cost, but near by chance: {} has {}\n", point.label,
-                    error_words(point, target), times(i), finer_but_further(trade, point, target, target.error)->label,
-                    error_words(*finer_but_further(trade, point, target, target.error), target));
+    const TradePoint& finer = *finer_but_further(trade, point, target, target.error);
+    text += fmt::format("  passed over: {}: {}, {:.2g} times the cost, but near by chance: {} has {}\n", point.label,
+                        error_words(point, target), times(i), finer.label, error_words(finer, target));
   }
   return text;
 }

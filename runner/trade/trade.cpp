@@ -29,7 +29,8 @@ std::string setting_of(const reports::Run& run) {
 std::string scene_of(const Case& c, const Leaf& leaf) {
   Leaf of_scene = leaf;
   for (const PlateVariant& variant : c.variants)
-    if (variant.id == leaf.variant && std::all_of(variant.keys.begin(), variant.keys.end(), is_numerical))
+    if (variant.id == leaf.variant && std::all_of(variant.changes.begin(), variant.changes.end(),
+                                                  [](const Change& change) { return is_numerical(change.key); }))
       of_scene.variant.clear();  // the same scene, solved in another way
   const std::string leafs = parameters_label(of_scene);
   return c.changed_scene + (c.changed_scene.empty() || leafs.empty() ? "" : " ") + leafs;
@@ -55,9 +56,7 @@ class Pace {
   std::optional<double> guess(const Case& whole, const Leaf& leaf) const {
     const auto known = of_update_.find(leaf.method);
     if (known == of_update_.end()) return {};
-    const auto c = case_of(whole, leaf);
-    const Outlook ahead = outlook(*c, leaf);
-    return known->second * describe(*c, leaf).unknowns * ahead.duration / ahead.step.asked;
+    return known->second * updates_ahead(whole, leaf);
   }
   void learn(const reports::Run& run) {
     const double updates = static_cast<double>(run.unknowns) * static_cast<double>(run.steps);

@@ -9,13 +9,12 @@
 
 #include "runner/draw/figure_runs.hpp"
 #include "runner/panel.hpp"
+#include "runner/trade/by_setting.hpp"
 
 namespace diptych::runner {
 namespace {
 
 using reports::TradePoint;
-
-constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
 struct End {
   const char *id, *name;
@@ -35,11 +34,6 @@ std::string colour_in(const std::string& line) {
   return at == line.npos ? "" : line.substr(at, line.find('\'', line.find('\'', at) + 1) + 1 - at);
 }
 
-void add_to_curve(reports::Curve& curve, double x, double y) {
-  curve.x.push_back(x);
-  curve.y.push_back(y);
-}
-
 }  // namespace
 
 const reports::TradeError* drawable_error(const TradePoint& point, const reports::Aim& aim, reports::Cost cost) {
@@ -51,19 +45,14 @@ const reports::TradeError* drawable_error(const TradePoint& point, const reports
 
 std::vector<std::vector<const TradePoint*>> settings_of(const reports::Trade& trade, const reports::Aim& aim,
                                                         reports::Cost cost) {
-  std::vector<std::vector<const TradePoint*>> settings;
-  for (const TradePoint& point : trade.points) {
-    if (!drawable_error(point, aim, cost)) continue;
-    const auto same = [&](const auto& meshes) { return meshes.front()->setting == point.setting; };
-    const auto known = std::find_if(settings.begin(), settings.end(), same);
-    if (known == settings.end())
-      settings.push_back({&point});
-    else
-      known->push_back(&point);
-  }
-  for (auto& meshes : settings)
-    std::sort(meshes.begin(), meshes.end(), [](const auto* a, const auto* b) { return a->cells < b->cells; });
-  return settings;
+  return by_setting(
+      trade.points, [&](const TradePoint& point) { return drawable_error(point, aim, cost) != nullptr; },
+      [](const TradePoint& a, const TradePoint& b) { return a.cells < b.cells; });
+}
+
+bool is_timed(const reports::Trade& trade) {
+  return std::any_of(trade.points.begin(), trade.points.end(),
+                     [](const TradePoint& p) { return p.completed() && p.timed.rounds > 0; });
 }
 
 std::vector<reports::Figure::Series> series_of(const std::vector<std::vector<const TradePoint*>>& settings,
@@ -82,9 +71,9 @@ std::vector<reports::Figure::Series> series_of(const std::vector<std::vector<con
     if (one == all.end()) one = all.insert(all.end(), {label, kind, {}});
     for (const TradePoint* point : meshes) {
       const auto [x, y] = at(*point);
-      add_to_curve(one->curve, x, y);
+      one->curve.add(x, y);
     }
-    add_to_curve(one->curve, no_number, no_number);  // ends the line
+    one->curve.end_line();
   }
   return all;
 }
@@ -116,8 +105,9 @@ void add_strip(const reports::Trade& trade, const std::function<double(const Tra
     if (known.try_emplace(id, strip.size()).second)
       strip.push_back({family_of_method(point.method) + ", " + end.name, id, {}});
     const auto row = static_cast<double>(std::find(families.begin(), families.end(), kind) - families.begin());
-    add_to_curve(strip[known[id]].curve, place, edge + (row + 0.7) * step);
-    add_to_curve(strip[known[id]].curve, no_number, no_number);
+    reports::Curve& curve = strip[known[id]].curve;
+    curve.add(place, edge + (row + 0.7) * step);
+    curve.end_line();
   }
   if (strip.empty()) return;
   panel.series.insert(panel.series.end(), strip.begin(), strip.end());
@@ -146,8 +136,7 @@ std::string note_on_others(const reports::Trade& trade) {
   if (others == 0) return "";
   return fmt::format(
       "{} of {} runs have no error, being unstable, above their limit, timed out or not to be judged: the strip above "
-      "the "
-      "error shows what they had cost, where they had cost any; the table says why",
+      "the error shows what they had cost, where they had cost any; the table says why",
       others, trade.points.size());
 }
 

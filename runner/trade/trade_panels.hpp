@@ -16,6 +16,9 @@ inline constexpr double exact_but_for_round_off = 1e-12;
 /// A completed point's error, where its logarithm and that of its cost can be drawn; else null.
 const reports::TradeError* drawable_error(const reports::TradePoint&, const reports::Aim&, reports::Cost);
 
+/// Whether some completed point was timed.
+bool is_timed(const reports::Trade&);
+
 /// The meshes that can be drawn of each setting, from the coarsest on.
 std::vector<std::vector<const reports::TradePoint*>> settings_of(const reports::Trade&, const reports::Aim&,
                                                                  reports::Cost);

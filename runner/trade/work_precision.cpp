@@ -17,10 +17,7 @@ using reports::Cost;
 using reports::TradeError;
 using reports::TradePoint;
 
-void add_point(reports::Curve& curve, double cost, double error) {
-  curve.x.push_back(std::log10(cost));
-  curve.y.push_back(std::log10(error));
-}
+void add_point(reports::Curve& curve, double cost, double error) { curve.add(std::log10(cost), std::log10(error)); }
 
 reports::Figure::Series front_line(const reports::Trade& trade, const reports::Aim& aim, Cost cost) {
   reports::Trade drawn = trade;
@@ -49,8 +46,7 @@ std::vector<reports::Figure::Series> predictions(const std::vector<std::vector<c
     auto& all = by_family.try_emplace(kind, family_of_method(method) + ", predicted", kind + "-thin").first->second;
     all.curve.x.insert(all.curve.x.end(), line.x.begin(), line.x.end());
     all.curve.y.insert(all.curve.y.end(), line.y.begin(), line.y.end());
-    all.curve.x.push_back(std::nan(""));
-    all.curve.y.push_back(std::nan(""));
+    all.curve.end_line();
   }
   std::vector<reports::Figure::Series> all;
   for (auto& [kind, series] : by_family) all.push_back(std::move(series));
@@ -102,9 +98,7 @@ reports::Figure work_precision(const reports::Trade& trade, const reports::Aim& 
   figure.panels.push_back(panel_over(trade, aim, Cost::work));
   figure.panels.back().label = "work: updates of elements or particles, and of nodes";
   figure.x_label = figure.panels.back().x_label = "updates";
-  const bool timed = std::any_of(trade.points.begin(), trade.points.end(),
-                                 [](const TradePoint& p) { return p.completed() && p.timed.rounds > 0; });
-  if (timed) {
+  if (is_timed(trade)) {
     figure.panels.push_back(panel_over(trade, aim, Cost::seconds));
     figure.panels.back().label = "time, without books";
     figure.panels.back().x_label = "seconds";

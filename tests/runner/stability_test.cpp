@@ -79,7 +79,7 @@ StabilityLimit made(double at, double limit, std::optional<double> theory) {
 }
 
 StabilityMap made_map() {
-  StabilityMap map{"c", "A title", "Courant number c Δt/h", "material.nu", 2000, 1e-3, 8, 10, false, {}};
+  StabilityMap map{"c", "A title", "Courant number c Δt/h", "material.nu", 2000, 1e-3, 8, 10, {}};
   map.limits = {made(0.3, 0.5, 0.5), made(0.49999, 0.6, 0.6)};
   return map;
 }
