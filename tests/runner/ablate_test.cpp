@@ -282,6 +282,22 @@ BOOST_AUTO_TEST_CASE(two_bars_that_close_and_never_meet_lack_contact) {
   BOOST_TEST((ruling_of(alone).need == Need::no_difference), reports::ablation_text(study));
 }
 
+BOOST_AUTO_TEST_CASE(bonded_bars_that_would_part_lack_a_contact_that_lets_go) {
+  const Written bars(head("t", "robustness", "paper") +
+                     "[material]\nmodel = \"elastic\"\nE = 1e4\nrho = 1.0\n"
+                     "[[bar]]\nlength = 0.5\nvelocity = 1.0\n"
+                     "[[bar]]\nlength = 0.5\nvelocity = -1.0\n"
+                     "[supports]\nleft = \"free\"\nright = \"free\"\n[contact]\nfem = \"bonded\"\n"
+                     "[model]\ndisplacements = \"finite\"\nfeatures = [\"contact\", \"convection\", \"elastic\"]\n" +
+                     axes({"fem"}, "10, 20", "1.0") + "[sample]\ntimes = { unit = \"L/c\", at = [5.5] }\n" +
+                     end_of_file);
+  const AblationStudy study = bars.study();
+  const auto added = std::find_if(study.tried.begin(), study.tried.end(),
+                                  [](const Ablation& one) { return one.added && one.part == "contact"; });
+  BOOST_TEST_REQUIRE((added != study.tried.end()));
+  BOOST_TEST((ruling_of(*added).need == Need::required), reports::ablation_text(study));
+}
+
 BOOST_AUTO_TEST_CASE(a_strip_does_for_a_plate_that_does_not_vary_along_a_side) {
   const auto stretched = [](const std::string& velocity) {
     return head("t", "robustness") + plate("1.0", "1.0") + elastic("1e4", "0.3", "1.0") +
