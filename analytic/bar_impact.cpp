@@ -9,12 +9,13 @@
 #include <stdexcept>
 #include <utility>
 
+#include "analytic/parameters.hpp"
+
 namespace diptych::analytic {
 namespace {
 
 using real = long double;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr real never = std::numeric_limits<real>::infinity();
 constexpr real same_time = 1e-11L;    ///< of the shortest L/c: events at one place are one
 constexpr real no_strength = 1e-14L;  ///< of the stresses at hand: a front is none
@@ -23,11 +24,9 @@ constexpr std::size_t most_links = std::size_t{1} << 26;  ///< of 4 bytes: a qua
 
 double plain(real x) { return static_cast<double>(x); }
 
-void require(bool condition, const std::string& message) {
+void require_impact(bool condition, const std::string& message) {
   if (!condition) throw std::invalid_argument("bar-impact: " + message);
 }
-
-bool positive(double x) { return std::isfinite(x) && x > 0; }
 
 /// Round-off of positions that a user computes as begin + fraction × length.
 real slack(const ImpactBar& bar) {
@@ -169,24 +168,24 @@ std::vector<Traction::Kink> jumps(const BarEnd& end) {
   return kinks;
 }
 
-void check(const BarEnd& end) {
-  require(!end.fixed || end.traction.kinks.empty(), "a fixed end carries no traction");
+void check_impact(const BarEnd& end) {
+  require_impact(!end.fixed || end.traction.kinks.empty(), "a fixed end carries no traction");
   for (const auto& kink : end.traction.kinks) {
-    require(std::isfinite(kink.time) && kink.time >= 0, "a traction must change at finite times >= 0");
-    require(std::isfinite(kink.jump), "a traction must be finite");
-    require(kink.slope == 0, "a traction may only jump: behind a ramp the states are not constant");
+    require_impact(std::isfinite(kink.time) && kink.time >= 0, "a traction must change at finite times >= 0");
+    require_impact(std::isfinite(kink.jump), "a traction must be finite");
+    require_impact(kink.slope == 0, "a traction may only jump: behind a ramp the states are not constant");
   }
 }
 
-void check(const BarImpact::Parameters& p) {
-  require(!p.bars.empty(), "there must be a bar");
-  require(positive(p.until), "`until` must be finite and > 0");
-  check(p.left);
-  check(p.right);
+void check_impact(const BarImpact::Parameters& p) {
+  require_impact(!p.bars.empty(), "there must be a bar");
+  require_impact(positive(p.until), "`until` must be finite and > 0");
+  check_impact(p.left);
+  check_impact(p.right);
   for (std::size_t k = 0; k < p.bars.size(); ++k) {
     const auto& bar = p.bars[k];
     const auto checked = [&](bool condition, const std::string& message) {
-      require(condition, "bar " + std::to_string(k) + ": " + message);
+      require_impact(condition, "bar " + std::to_string(k) + ": " + message);
     };
     checked(std::isfinite(bar.begin), "its begin must be finite");
     checked(positive(bar.length), "length must be > 0");
@@ -390,7 +389,7 @@ class BarImpact::Tracker {
       std::ostringstream message;
       message << r_.events.size() << " events, after which " << current_[bar].size()
               << " lines stand in a bar, led only to t = " << plain(now_) << " of " << p_.until;
-      require(false, message.str());
+      require_impact(false, message.str());
     }
     r_.events.push_back({kind, plain(now_), bar, plain(real{p_.bars[bar].begin} + place)});
     r_.times.push_back(now_);
@@ -637,7 +636,7 @@ class BarImpact::Tracker {
 };
 
 BarImpact::BarImpact(Parameters p) {
-  check(p);
+  check_impact(p);
   auto record = std::make_shared<Record>();
   record->parameters = std::move(p);
   Tracker(*record).run();
@@ -780,7 +779,7 @@ using Region = BarImpact::Region;
 using Snapshot = BarImpact::Snapshot;
 
 /// Keeps the larger violation, as a share of its scale. NaN wins and stays; where everything is zero, so must it be.
-void note(double& worst, double violation, double scale) {
+void note_violation(double& worst, double violation, double scale) {
   violation = std::abs(violation);
   const double share = violation == 0 ? 0 : violation / scale;
   if (!std::isnan(worst) && !(share <= worst)) worst = share;
@@ -893,30 +892,30 @@ class Audit {
     const auto& regions = now.bars[bar];
     const Material& m = materials_[bar];
     const double length = p_.bars[bar].length, speed = plain(m.speed), stress = scales_[bar].stress;
-    if (regions.empty()) return note(b_.state, 1, 1);
-    note(b_.state, regions.front().begin, length);
-    note(b_.state, regions.front().begin_speed, speed);
-    note(b_.state, regions.back().end - length, length);
-    note(b_.state, regions.back().end_speed, speed);
+    if (regions.empty()) return note_violation(b_.state, 1, 1);
+    note_violation(b_.state, regions.front().begin, length);
+    note_violation(b_.state, regions.front().begin_speed, speed);
+    note_violation(b_.state, regions.back().end - length, length);
+    note_violation(b_.state, regions.back().end_speed, speed);
     for (std::size_t i = 0; i < regions.size(); ++i) {
       const Region& r = regions[i];
       const double width = r.end - r.begin;
-      note(b_.state, std::min(0.0, width), length);
-      note(b_.state, std::min(0.0, width + (r.end_speed - r.begin_speed) * (now.until - now.time)), length);
+      note_violation(b_.state, std::min(0.0, width), length);
+      note_violation(b_.state, std::min(0.0, width + (r.end_speed - r.begin_speed) * (now.until - now.time)), length);
       if (i > 0) {
-        note(b_.state, r.begin - regions[i - 1].end, length);
-        note(b_.state, r.begin_speed - regions[i - 1].end_speed, speed);
+        note_violation(b_.state, r.begin - regions[i - 1].end, length);
+        note_violation(b_.state, r.begin_speed - regions[i - 1].end_speed, speed);
       }
       if (!std::isfinite(p_.bars[bar].yield_stress)) {
-        note(b_.state, r.plastic_strain * p_.bars[bar].youngs_modulus, stress);
-        note(b_.state, r.stress - r.stress, 1);
+        note_violation(b_.state, r.plastic_strain * p_.bars[bar].youngs_modulus, stress);
+        note_violation(b_.state, r.stress - r.stress, 1);
         continue;
       }
       const double hardened = (r.yield_stress - p_.bars[bar].yield_stress) * plain(m.plastic_compliance);
       const auto excess = [](double x) { return x < 0 ? 0.0 : x; };  // lets NaN through
-      note(b_.state, excess(std::abs(r.stress) - r.yield_stress), stress);
-      note(b_.state, excess(-hardened) * p_.bars[bar].youngs_modulus, stress);
-      note(b_.state, excess(std::abs(r.plastic_strain) - hardened) * p_.bars[bar].youngs_modulus, stress);
+      note_violation(b_.state, excess(std::abs(r.stress) - r.yield_stress), stress);
+      note_violation(b_.state, excess(-hardened) * p_.bars[bar].youngs_modulus, stress);
+      note_violation(b_.state, excess(std::abs(r.plastic_strain) - hardened) * p_.bars[bar].youngs_modulus, stress);
     }
   }
 
@@ -929,18 +928,18 @@ class Audit {
       ++b_.fronts;
       const Region &l = regions[i - 1], &r = regions[i];
       const double speed = l.end_speed;
-      note(b_.jump, (r.stress - l.stress) + density * speed * (r.velocity - l.velocity), stress);
-      note(b_.jump, (r.velocity - l.velocity) + speed * (strain_of(bar, r) - strain_of(bar, l)), velocity);
+      note_violation(b_.jump, (r.stress - l.stress) + density * speed * (r.velocity - l.velocity), stress);
+      note_violation(b_.jump, (r.velocity - l.velocity) + speed * (strain_of(bar, r) - strain_of(bar, l)), velocity);
       const Region &behind = speed > 0 ? l : r, &ahead = speed > 0 ? r : l;
       const bool flows = c_p > 0 && std::abs(std::abs(speed) - c_p) < std::abs(std::abs(speed) - c) && speed != 0;
-      if (speed != 0) note(b_.jump, std::abs(speed) - (flows ? c_p : c), c);
+      if (speed != 0) note_violation(b_.jump, std::abs(speed) - (flows ? c_p : c), c);
       if (flows) {  // from yield to beyond it, on one side of zero
-        note(b_.jump, std::abs(behind.stress) - behind.yield_stress, stress);
-        note(b_.jump, ahead.stress - std::copysign(ahead.yield_stress, behind.stress), stress);
-        note(b_.jump, std::min(0.0, behind.yield_stress - ahead.yield_stress), stress);
+        note_violation(b_.jump, std::abs(behind.stress) - behind.yield_stress, stress);
+        note_violation(b_.jump, ahead.stress - std::copysign(ahead.yield_stress, behind.stress), stress);
+        note_violation(b_.jump, std::min(0.0, behind.yield_stress - ahead.yield_stress), stress);
       } else if (speed != 0) {
-        if (c_p > 0) note(b_.jump, behind.yield_stress - ahead.yield_stress, stress);
-        note(b_.jump, (behind.plastic_strain - ahead.plastic_strain) * modulus, stress);
+        if (c_p > 0) note_violation(b_.jump, behind.yield_stress - ahead.yield_stress, stress);
+        note_violation(b_.jump, (behind.plastic_strain - ahead.plastic_strain) * modulus, stress);
       }
     }
   }
@@ -965,10 +964,10 @@ class Audit {
       if (a.end <= b.end) ++i;
       if (b.end <= a.end) ++j;
     }
-    note(b_.continuity, stress, scale.stress * length);
-    note(b_.continuity, velocity, scale.velocity * length);
-    note(b_.continuity, strain * modulus, scale.stress * length);
-    note(b_.continuity, yield, scale.stress * length);
+    note_violation(b_.continuity, stress, scale.stress * length);
+    note_violation(b_.continuity, velocity, scale.velocity * length);
+    note_violation(b_.continuity, strain * modulus, scale.stress * length);
+    note_violation(b_.continuity, yield, scale.stress * length);
   }
 
   void balances(std::size_t bar, const Snapshot& now) {
@@ -977,8 +976,8 @@ class Audit {
     const Material& m = materials_[bar];
     const real v = p_.bars[bar].velocity, mass = m.density * m.length;
     const auto compare = [&](const Gained& sum) {
-      note(b_.momentum, plain(sum.momentum - mass * v - gained_[bar].momentum), scales_[bar].momentum);
-      note(b_.energy, plain(sum.energy - mass * v * v / 2 - gained_[bar].energy), scales_[bar].energy);
+      note_violation(b_.momentum, plain(sum.momentum - mass * v - gained_[bar].momentum), scales_[bar].momentum);
+      note_violation(b_.energy, plain(sum.energy - mass * v * v / 2 - gained_[bar].energy), scales_[bar].energy);
     };
     compare(sums(bar, regions));
     const real time = real{now.until} - real{now.time};
@@ -999,17 +998,19 @@ class Audit {
     const double size = scales_[bar].displacement;
     for (std::size_t i = 1; i < regions.size(); ++i) {
       const Region& r = regions[i - 1];
-      note(b_.motion, r.displacement + strain_of(bar, r) * (r.end - r.begin) - regions[i].displacement, size);
+      note_violation(b_.motion, r.displacement + strain_of(bar, r) * (r.end - r.begin) - regions[i].displacement, size);
     }
     if (!before) {
-      note(b_.motion, regions.front().displacement, size);
-      note(b_.motion, right_end_displacement(bar, regions), size);
+      note_violation(b_.motion, regions.front().displacement, size);
+      note_violation(b_.motion, right_end_displacement(bar, regions), size);
     } else if (!before->bars[bar].empty()) {
       const auto& old = before->bars[bar];
       const double time = before->until - before->time;
-      note(b_.motion, old.front().displacement + old.front().velocity * time - regions.front().displacement, size);
-      note(b_.motion,
-           right_end_displacement(bar, old) + old.back().velocity * time - right_end_displacement(bar, regions), size);
+      note_violation(b_.motion, old.front().displacement + old.front().velocity * time - regions.front().displacement,
+                     size);
+      note_violation(
+          b_.motion,
+          right_end_displacement(bar, old) + old.back().velocity * time - right_end_displacement(bar, regions), size);
     }
   }
 
@@ -1025,15 +1026,15 @@ class Audit {
       const double gap = start + (r.displacement - right_end_displacement(k, now.bars[k]));
       const double gap_later = gap + (r.velocity - l.velocity) * (now.until - now.time);
       if (now.touching[k]) {
-        note(b_.contact, l.stress - r.stress, stress);
-        note(b_.contact, l.velocity - r.velocity, velocity);
-        if (!p_.bonded) note(b_.contact, l.stress <= 0 ? 0 : l.stress, stress);
-        note(b_.contact, gap, size);
+        note_violation(b_.contact, l.stress - r.stress, stress);
+        note_violation(b_.contact, l.velocity - r.velocity, velocity);
+        if (!p_.bonded) note_violation(b_.contact, l.stress <= 0 ? 0 : l.stress, stress);
+        note_violation(b_.contact, gap, size);
       } else {
-        note(b_.contact, l.stress, stress);
-        note(b_.contact, r.stress, stress);
-        note(b_.contact, gap >= 0 ? 0 : gap, size);
-        note(b_.contact, gap_later >= 0 ? 0 : gap_later, size);
+        note_violation(b_.contact, l.stress, stress);
+        note_violation(b_.contact, r.stress, stress);
+        note_violation(b_.contact, gap >= 0 ? 0 : gap, size);
+        note_violation(b_.contact, gap_later >= 0 ? 0 : gap_later, size);
       }
     }
   }
@@ -1045,11 +1046,11 @@ class Audit {
       if (now.bars[bar].empty()) continue;
       const Region& r = left ? now.bars[bar].front() : now.bars[bar].back();
       if (end.fixed) {
-        note(b_.boundary, r.velocity, scales_[bar].velocity);
+        note_violation(b_.boundary, r.velocity, scales_[bar].velocity);
         // Loads that change at the time of an event belong to it: between two such there is no load to compare with.
       } else if (now.until - now.time > plain(2 * same_time) * crossing_) {
         const double load = end.traction.value(now.time + (now.until - now.time) / 2);
-        note(b_.boundary, r.stress - load, std::max(scales_[bar].stress, std::abs(load)));
+        note_violation(b_.boundary, r.stress - load, std::max(scales_[bar].stress, std::abs(load)));
       }
     }
   }
@@ -1070,7 +1071,7 @@ double Balance::worst() const {
   if (states == 0) return infinity;
   double worst = 0;
   for (const double violation : {jump, state, continuity, momentum, energy, motion, contact, boundary})
-    note(worst, violation, 1);
+    note_violation(worst, violation, 1);
   return worst;
 }
 

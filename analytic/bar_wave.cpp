@@ -6,14 +6,14 @@
 #include <string>
 #include <utility>
 
+#include "analytic/parameters.hpp"
+
 namespace diptych::analytic {
 namespace {
 
-void require(bool condition, const char* message) {
+void require_wave(bool condition, const char* message) {
   if (!condition) throw std::invalid_argument(std::string("bar-wave: ") + message);
 }
-
-bool positive(double x) { return std::isfinite(x) && x > 0; }
 
 double slope_sum(const Traction& f, bool absolute) {
   double sum = 0;
@@ -33,14 +33,14 @@ double largest(const Traction& f) {
   return sup;
 }
 
-void check(const BarEnd& end) {
-  require(!end.fixed || end.traction.kinks.empty(), "a fixed end carries no traction");
+void check_end_of_wave(const BarEnd& end) {
+  require_wave(!end.fixed || end.traction.kinks.empty(), "a fixed end carries no traction");
   for (const auto& kink : end.traction.kinks) {
-    require(std::isfinite(kink.time) && kink.time >= 0, "a traction must change at finite times >= 0");
-    require(std::isfinite(kink.jump) && std::isfinite(kink.slope), "a traction must be finite");
+    require_wave(std::isfinite(kink.time) && kink.time >= 0, "a traction must change at finite times >= 0");
+    require_wave(std::isfinite(kink.jump) && std::isfinite(kink.slope), "a traction must be finite");
   }
-  require(std::abs(slope_sum(end.traction, false)) <= 1e-12 * slope_sum(end.traction, true),
-          "the slopes of a traction must add up to zero, or it grows without bound");
+  require_wave(std::abs(slope_sum(end.traction, false)) <= 1e-12 * slope_sum(end.traction, true),
+               "the slopes of a traction must add up to zero, or it grows without bound");
 }
 
 /// Stress is reflected with its sign by a held end, against its sign by a free or loaded one.
@@ -79,23 +79,23 @@ double Traction::integral(double t) const {
 Traction Traction::step(double amplitude, double start) { return {{{start, amplitude, 0}}}; }
 
 Traction Traction::ramp(double amplitude, double rise, double start) {
-  require(positive(rise), "a ramp needs a rise time > 0");
+  require_wave(positive(rise), "a ramp needs a rise time > 0");
   return {{{start, 0, amplitude / rise}, {start + rise, 0, -amplitude / rise}}};
 }
 
 Traction Traction::impulse(double amplitude, double duration, double start) {
-  require(positive(duration), "an impulse needs a duration > 0");
+  require_wave(positive(duration), "an impulse needs a duration > 0");
   return {{{start, amplitude, 0}, {start + duration, -amplitude, 0}}};
 }
 
 BarWave::BarWave(Parameters p) : p_(std::move(p)) {
-  require(positive(p_.youngs_modulus), "Young's modulus must be > 0");
-  require(positive(p_.density), "density must be > 0");
-  require(positive(p_.length), "length must be > 0");
-  require(!(p_.left.fixed && p_.right.fixed), "one end must be free to carry a traction");
-  check(p_.left);
-  check(p_.right);
-  require(positive(scale(BarQuantity::stress)), "one end must carry a traction that is not zero");
+  require_wave(positive(p_.youngs_modulus), "Young's modulus must be > 0");
+  require_wave(positive(p_.density), "density must be > 0");
+  require_wave(positive(p_.length), "length must be > 0");
+  require_wave(!(p_.left.fixed && p_.right.fixed), "one end must be free to carry a traction");
+  check_end_of_wave(p_.left);
+  check_end_of_wave(p_.right);
+  require_wave(positive(scale(BarQuantity::stress)), "one end must carry a traction that is not zero");
 }
 
 double BarWave::wave_speed() const { return std::sqrt(p_.youngs_modulus / p_.density); }

@@ -10,19 +10,18 @@
 #include <stdexcept>
 #include <string>
 
+#include "analytic/parameters.hpp"
 #include "analytic/residual.hpp"
 
 namespace diptych::analytic {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using std::numbers::pi;
 
-void require(bool condition, const char* message) {
+void require_diffusion(bool condition, const char* message) {
   if (!condition) throw std::invalid_argument(std::string("diffusion: ") + message);
 }
 
-bool positive(double x) { return std::isfinite(x) && x > 0; }
 bool not_zero(double x) { return std::isfinite(x) && x != 0; }
 
 void inside(bool condition, const DiffusionSolution& solution) {
@@ -74,9 +73,9 @@ double integral(const F& f, int n) {
   return sum / n;
 }
 
-class SelfTest {
+class DiffusionSelfTest {
  public:
-  SelfTest(const DiffusionSolution& s, const DiffusionProblem& p, double t_begin, double t_end)
+  DiffusionSelfTest(const DiffusionSolution& s, const DiffusionProblem& p, double t_begin, double t_end)
       : s_(s), p_(p), begin_(t_begin), end_(t_end) {}
 
   DiffusionResidual run() {
@@ -177,10 +176,10 @@ double DiffusionSolution::scale(PlaneQuantity quantity) const {
 // ---------------------------------------------------------------------------------------------------
 
 InstantSource::InstantSource(const Parameters& p) : p_(p) {
-  require(not_zero(p.amount), "amount must be finite and not zero");
-  require(positive(p.diffusivity), "diffusivity must be > 0");
-  require(positive(p.time), "time must be > 0");
-  require(std::isfinite(p.start) && p.start >= 0, "start must be >= 0");
+  require_diffusion(not_zero(p.amount), "amount must be finite and not zero");
+  require_diffusion(positive(p.diffusivity), "diffusivity must be > 0");
+  require_diffusion(positive(p.time), "time must be > 0");
+  require_diffusion(std::isfinite(p.start) && p.start >= 0, "start must be >= 0");
 }
 
 double InstantSource::concentration(double x, double y, double t) const {
@@ -192,8 +191,8 @@ double InstantSource::concentration(double x, double y, double t) const {
 double InstantSource::size() const { return std::abs(p_.amount) / (pi * p_.diffusivity * (p_.time + p_.start)); }
 
 CornerSource::CornerSource(const Parameters& p) : p_(p) {
-  require(not_zero(p.rate), "rate must be finite and not zero");
-  require(positive(p.diffusivity), "diffusivity must be > 0");
+  require_diffusion(not_zero(p.rate), "rate must be finite and not zero");
+  require_diffusion(positive(p.diffusivity), "diffusivity must be > 0");
 }
 
 double CornerSource::concentration(double x, double y, double t) const {
@@ -207,10 +206,10 @@ double CornerSource::concentration(double x, double y, double t) const {
 double CornerSource::size() const { return std::abs(p_.rate) / (pi * p_.diffusivity); }
 
 RadialPulse::RadialPulse(const Parameters& p) : p_(p) {
-  require(not_zero(p.amount), "amount must be finite and not zero");
-  require(positive(p.diffusivity), "diffusivity must be > 0");
-  require(positive(p.time), "time must be > 0");
-  require(std::isfinite(p.start) && p.start >= 0, "start must be >= 0");
+  require_diffusion(not_zero(p.amount), "amount must be finite and not zero");
+  require_diffusion(positive(p.diffusivity), "diffusivity must be > 0");
+  require_diffusion(positive(p.time), "time must be > 0");
+  require_diffusion(std::isfinite(p.start) && p.start >= 0, "start must be >= 0");
 }
 
 double RadialPulse::concentration(double x, double y, double t) const {
@@ -225,11 +224,11 @@ double RadialPulse::size() const { return std::abs(p_.amount) / std::sqrt(pi * p
 // -------------------------------------------------------------------------------------------------------
 
 CosineMode::CosineMode(const Parameters& p) : p_(p) {
-  require(positive(p.width) && positive(p.height), "sides must be > 0");
-  require(p.m >= 0 && p.n >= 0, "m and n must be >= 0");
-  require(std::isfinite(p.mean), "mean must be finite");
-  require(not_zero(p.amplitude), "amplitude must be finite and not zero");
-  require(positive(p.diffusivity), "diffusivity must be > 0");
+  require_diffusion(positive(p.width) && positive(p.height), "sides must be > 0");
+  require_diffusion(p.m >= 0 && p.n >= 0, "m and n must be >= 0");
+  require_diffusion(std::isfinite(p.mean), "mean must be finite");
+  require_diffusion(not_zero(p.amplitude), "amplitude must be finite and not zero");
+  require_diffusion(positive(p.diffusivity), "diffusivity must be > 0");
 }
 
 double CosineMode::decay_rate() const {
@@ -246,12 +245,12 @@ double CosineMode::concentration(double x, double y, double t) const {
 double CosineMode::size() const { return std::abs(p_.amplitude); }
 
 ManufacturedVariable::ManufacturedVariable(const Parameters& p) : p_(p) {
-  require(positive(p.width) && positive(p.height), "sides must be > 0");
-  require(not_zero(p.amplitude), "amplitude must be finite and not zero");
-  require(positive(p.decay_time), "decay time must be > 0");
-  require(positive(p.mobility), "mobility must be > 0");
-  require(positive(p.rupture_strain), "rupture strain must be > 0");
-  require(p.strain >= 0 && p.strain <= p.rupture_strain, "strain must lie between 0 and the rupture strain");
+  require_diffusion(positive(p.width) && positive(p.height), "sides must be > 0");
+  require_diffusion(not_zero(p.amplitude), "amplitude must be finite and not zero");
+  require_diffusion(positive(p.decay_time), "decay time must be > 0");
+  require_diffusion(positive(p.mobility), "mobility must be > 0");
+  require_diffusion(positive(p.rupture_strain), "rupture strain must be > 0");
+  require_diffusion(p.strain >= 0 && p.strain <= p.rupture_strain, "strain must lie between 0 and the rupture strain");
 }
 
 double ManufacturedVariable::strain(double x, double y) const {
@@ -298,7 +297,7 @@ DiffusionResidual self_test(const DiffusionSolution& solution, const DiffusionPr
                             double t_end) {
   if (!(t_begin > 0 && t_end >= t_begin) || !std::isfinite(t_end))
     throw std::invalid_argument("self_test: times must be > 0, finite and in order");
-  return SelfTest(solution, problem, t_begin, t_end).run();
+  return DiffusionSelfTest(solution, problem, t_begin, t_end).run();
 }
 
 double DiffusionSolution::residual(const PlaneWindow& window) const {

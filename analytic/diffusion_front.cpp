@@ -12,18 +12,15 @@
 #include <stdexcept>
 #include <vector>
 
+#include "analytic/parameters.hpp"
 #include "analytic/residual.hpp"
 
 namespace diptych::analytic {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-void require(bool condition, const char* message) {
+void require_front(bool condition, const char* message) {
   if (!condition) throw std::invalid_argument(std::string("diffusion front: ") + message);
 }
-
-bool positive(double x) { return std::isfinite(x) && x > 0; }
 
 /// The solution for falling diffusivity, over s = √η: dw/ds = 2s q/w, dq/ds = −s³ q/w.
 class FallingProfile {
@@ -167,16 +164,16 @@ class RisingProfile {
   std::vector<Node> nodes_;
 };
 
-void check(const FaceFront::Parameters& p) {
-  require(positive(p.width) && positive(p.height), "sides must be > 0");
-  require(positive(p.diffusivity), "diffusivity must be > 0");
-  require(std::isfinite(p.value) && p.value != 0, "the face's value must be finite and not zero");
+void check_front(const FaceFront::Parameters& p) {
+  require_front(positive(p.width) && positive(p.height), "sides must be > 0");
+  require_front(positive(p.diffusivity), "diffusivity must be > 0");
+  require_front(std::isfinite(p.value) && p.value != 0, "the face's value must be finite and not zero");
 }
 
 }  // namespace
 
 DiffusionFront::DiffusionFront(const Parameters& p) : p_(p) {
-  require(positive(p.diffusivity), "diffusivity must be > 0");
+  require_front(positive(p.diffusivity), "diffusivity must be > 0");
 }
 
 double DiffusionFront::value(double x, double t) const {
@@ -224,7 +221,7 @@ double DiffusionFront::arrival(double x, double u) const {
   return root * root / p_.diffusivity;
 }
 
-FaceFront::FaceFront(const Parameters& p) : p_(p), front_({p.diffusivity, p.profile}) { check(p); }
+FaceFront::FaceFront(const Parameters& p) : p_(p), front_({p.diffusivity, p.profile}) { check_front(p); }
 
 std::array<double, 3> FaceFront::at(PlaneQuantity quantity, double x, double y, double t) const {
   if (!(x >= -1e-9 * p_.width && x <= (1 + 1e-9) * p_.width && y >= -1e-9 * p_.height && y <= (1 + 1e-9) * p_.height &&
@@ -244,9 +241,9 @@ double FaceFront::scale(PlaneQuantity quantity) const {
 
 namespace {
 
-class SelfTest {
+class FrontSelfTest {
  public:
-  SelfTest(const PlaneSolution& s, const FaceFront::Parameters& p, double t_begin, double t_end)
+  FrontSelfTest(const PlaneSolution& s, const FaceFront::Parameters& p, double t_begin, double t_end)
       : s_(s), p_(p), begin_(t_begin), end_(t_end) {}
 
   FrontResidual run() {
@@ -329,9 +326,9 @@ double FrontResidual::worst() const {
 }
 
 FrontResidual self_test(const PlaneSolution& solution, const FaceFront::Parameters& p, double t_begin, double t_end) {
-  check(p);
-  require(t_begin > 0 && t_end >= t_begin && std::isfinite(t_end), "times must be > 0, finite and in order");
-  return SelfTest(solution, p, t_begin, t_end).run();
+  check_front(p);
+  require_front(t_begin > 0 && t_end >= t_begin && std::isfinite(t_end), "times must be > 0, finite and in order");
+  return FrontSelfTest(solution, p, t_begin, t_end).run();
 }
 
 double FaceFront::residual(const PlaneWindow& window) const {

@@ -14,7 +14,7 @@
 namespace diptych::analytic {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // A scheme without dissipation obeys u_t + c u_x + β u_xxx = 0, β = c h² (1 + 3a − C²)/24, to leading order. Its answer
 // to a step is ∫_ξ^∞ Ai, ξ = (x − ct)/w, w = (3βt)^(1/3) (Hedstrom, SIAM J. Numer. Anal. 12, 1975; Chin & Hedstrom,
@@ -25,7 +25,7 @@ constexpr double airy_step_square = 0.5176388075856136;
 constexpr double airy_kink_square = 1.0 / 9;
 constexpr double airy_kink_sup = 0.25881940379280680;
 
-void check(const Discretisation& d) {
+void check_discretisation(const Discretisation& d) {
   const auto require = [](bool condition, const char* message) {
     if (!condition) throw std::invalid_argument(std::string("discretisation: ") + message);
   };
@@ -152,12 +152,12 @@ double standing_mode_error(const StandingMode& mode, const Discretisation& d, Ba
 }  // namespace
 
 double particle_filter(const Discretisation& d) {
-  check(d);
+  check_discretisation(d);
   return filter(d);
 }
 
 StepFactor step_factor(const Discretisation& d, double theta) {
-  check(d);
+  check_discretisation(d);
   if (!(theta >= 0 && theta <= pi * (1 + 1e-12))) throw std::invalid_argument("step_factor: kh must lie in [0, pi]");
   const double a = filter(d), s = std::sin(theta / 2), cs = d.courant * s;
   if (d.scheme != Scheme::mpm_usl) {
@@ -176,7 +176,7 @@ StepFactor step_factor(const Discretisation& d, double theta) {
 }
 
 double stability_limit(const Discretisation& d) {
-  check(d);
+  check_discretisation(d);
   if (d.scheme == Scheme::fem) return 1;
   double mean = 0, variance = 0;
   for (const double xi : d.positions) mean += xi;
@@ -198,7 +198,7 @@ double stability_limit(const Discretisation& d) {
 }
 
 double front_width(const Discretisation& d, double travelled) {
-  check(d);
+  check_discretisation(d);
   if (!(travelled >= 0)) throw std::invalid_argument("front_width: a front has travelled a distance >= 0");
   return std::cbrt(std::abs(1 + 3 * filter(d) - square(d.courant)) * travelled * square(d.cell) / 8);
 }
@@ -225,7 +225,7 @@ std::optional<double> airy_step_error(const ExactSolution& solution, const Discr
 
 std::optional<double> predicted_error(const ExactSolution& solution, const Discretisation& d, BarQuantity quantity,
                                       Norm norm, double t) {
-  check(d);
+  check_discretisation(d);
   if (!std::isfinite(t)) throw std::invalid_argument("predicted_error: time must be finite");
   if (const auto* bar = dynamic_cast<const BarWave*>(&solution)) return bar_wave_error(*bar, d, quantity, norm, t);
   if (const auto* mode = dynamic_cast<const StandingMode*>(&solution))

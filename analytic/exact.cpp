@@ -5,12 +5,11 @@
 #include <limits>
 #include <stdexcept>
 
+#include "analytic/parameters.hpp"
 #include "analytic/residual.hpp"
 
 namespace diptych::analytic {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Place {
   double position;
@@ -27,9 +26,9 @@ Place place(const BarProblem::Kink& kink, double length, double speed, double t)
   return {kink.right ? length - from_entry : from_entry, kink.right == returning ? +1 : -1};
 }
 
-class SelfTest {
+class BarSelfTest {
  public:
-  SelfTest(const ExactSolution& solution, const BarProblem& problem, double t_end)
+  BarSelfTest(const ExactSolution& solution, const BarProblem& problem, double t_end)
       : s_(solution), p_(problem), t_end_(t_end), c_(std::sqrt(p_.youngs_modulus / p_.density)) {}
 
   Residual run() {
@@ -161,7 +160,7 @@ double Residual::worst() const {
 
 Residual self_test(const ExactSolution& solution, const BarProblem& problem, double t_end) {
   if (!(t_end > 0) || !std::isfinite(t_end)) throw std::invalid_argument("self_test: t_end must be > 0 and finite");
-  return SelfTest(solution, problem, t_end).run();
+  return BarSelfTest(solution, problem, t_end).run();
 }
 
 }  // namespace diptych::analytic

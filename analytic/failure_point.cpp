@@ -9,16 +9,16 @@
 #include <stdexcept>
 #include <string>
 
+#include "analytic/parameters.hpp"
+
 namespace diptych::analytic {
 namespace {
 
 using real = long double;
 
-void require(bool condition, const char* message) {
+void require_point(bool condition, const char* message) {
   if (!condition) throw std::invalid_argument(std::string("failure point: ") + message);
 }
-
-bool positive(double x) { return std::isfinite(x) && x > 0; }
 
 /// Energies of the solid before it fails [J/m³] and its pressure.
 struct Whole {
@@ -68,10 +68,10 @@ double ceiling(const Whole& whole, real f_max) {
 }  // namespace
 
 FailurePoint failure_point(double K, double G, double exx, double eyy, double exy, double V_d, double f_max) {
-  require(positive(K) && positive(G), "K and G must be > 0");
-  require(std::isfinite(exx) && std::isfinite(eyy) && std::isfinite(exy), "the strain must be finite");
-  require(std::isfinite(V_d) && V_d >= 0, "the dilatancy must be finite and >= 0");
-  require(f_max >= 0 && f_max <= 1, "f_max must lie between 0 and 1");
+  require_point(positive(K) && positive(G), "K and G must be > 0");
+  require_point(std::isfinite(exx) && std::isfinite(eyy) && std::isfinite(exy), "the strain must be finite");
+  require_point(std::isfinite(V_d) && V_d >= 0, "the dilatancy must be finite and >= 0");
+  require_point(f_max >= 0 && f_max <= 1, "f_max must lie between 0 and 1");
 
   const real middle = (real{exx} + eyy) / 2, across = (real{exx} - eyy) / 2, radius = std::hypot(across, real{exy});
   const std::array<real, 3> e{middle + radius, middle - radius, 0};
@@ -110,8 +110,8 @@ FailurePoint failure_point(double K, double G, double exx, double eyy, double ex
 }
 
 UniaxialFailure::UniaxialFailure(double K, double G) : K_(K), G_(G) {
-  require(positive(K) && positive(G), "K and G must be > 0");
-  require(K > 2 * G / 3, "K must be > 2G/3 for the lateral stress to be compressive");
+  require_point(positive(K) && positive(G), "K and G must be > 0");
+  require_point(K > 2 * G / 3, "K must be > 2G/3 for the lateral stress to be compressive");
 }
 
 double UniaxialFailure::pressure(double f) const {

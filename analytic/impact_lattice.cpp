@@ -7,32 +7,32 @@
 #include <stdexcept>
 #include <string>
 
+#include "analytic/parameters.hpp"
+
 namespace diptych::analytic {
 namespace {
 
 using Method = PlaneDiscretisation::Method;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
-void require(bool condition, const char* message) {
+void require_lattice(bool condition, const char* message) {
   if (!condition) throw std::invalid_argument(std::string("impact lattice: ") + message);
 }
 
-bool positive(double x) { return std::isfinite(x) && x > 0; }
-
-void check(const PlaneMedium& medium, const PlaneDiscretisation& d) {
-  require(positive(medium.mu) && std::isfinite(medium.lambda) && medium.lambda + medium.mu > 0,
-          "mu and lambda + mu must be > 0");
-  require(positive(medium.density), "density must be > 0");
-  require(positive(d.hx) && positive(d.hy), "cell sizes must be > 0");
-  require(positive(d.time_step), "time step must be > 0");
+void check_lattice(const PlaneMedium& medium, const PlaneDiscretisation& d) {
+  require_lattice(positive(medium.mu) && std::isfinite(medium.lambda) && medium.lambda + medium.mu > 0,
+                  "mu and lambda + mu must be > 0");
+  require_lattice(positive(medium.density), "density must be > 0");
+  require_lattice(positive(d.hx) && positive(d.hy), "cell sizes must be > 0");
+  require_lattice(positive(d.time_step), "time step must be > 0");
   if (d.method == Method::fem) return;
-  require(!d.positions.empty(), "a cell needs particles");
+  require_lattice(!d.positions.empty(), "a cell needs particles");
   auto positions = d.positions;
   std::sort(positions.begin(), positions.end());
   for (std::size_t i = 0; i < positions.size(); ++i) {
-    require(positions[i] >= 0 && positions[i] <= 1, "positions must lie in [0, 1]");
-    require(std::abs(positions[i] + positions[positions.size() - 1 - i] - 1) <= 1e-12,
-            "particles must lie symmetrically in their cells");
+    require_lattice(positions[i] >= 0 && positions[i] <= 1, "positions must lie in [0, 1]");
+    require_lattice(std::abs(positions[i] + positions[positions.size() - 1 - i] - 1) <= 1e-12,
+                    "particles must lie symmetrically in their cells");
   }
 }
 
@@ -52,10 +52,10 @@ double courant(const PlaneMedium& medium, const PlaneDiscretisation& d) {
 }  // namespace
 
 ImpactLattice::ImpactLattice(const Parameters& p) : p_(p), courant_(0) {
-  check(p.medium, p.scheme);
-  require(p.cells >= 2 && p.cells <= 1000000, "cells must be 2 to a million");
-  require(p.face >= 1 && p.face < p.cells, "the face must be a column of nodes between the ends");
-  require(positive(p.velocity), "velocity must be > 0");
+  check_lattice(p.medium, p.scheme);
+  require_lattice(p.cells >= 2 && p.cells <= 1000000, "cells must be 2 to a million");
+  require_lattice(p.face >= 1 && p.face < p.cells, "the face must be a column of nodes between the ends");
+  require_lattice(positive(p.velocity), "velocity must be > 0");
   courant_ = courant(p.medium, p.scheme);
   const int turn = 4 * p.cells;
   for (int m = 0; m < turn; ++m) {  // the four quarters alike to the bit
@@ -67,7 +67,7 @@ ImpactLattice::ImpactLattice(const Parameters& p) : p_(p), courant_(0) {
 
 /// sin²(Ω/2) as a wave without damping: by the distance from whichever of 0 and π is nearer, which keeps its digits.
 ImpactLattice::Wave ImpactLattice::leapfrog(int k, double weight, double half_square) {
-  require(half_square <= 1 + 1e-12, "the time step lies above the stability limit");
+  require_lattice(half_square <= 1 + 1e-12, "the time step lies above the stability limit");
   const double below = std::min(half_square, 1.0);
   return below <= 0.5 ? Wave{k, weight, 2 * std::asin(std::sqrt(below)), 1, 0}
                       : Wave{k, weight, 2 * std::asin(std::sqrt(1 - below)), -1, 0};
@@ -89,7 +89,7 @@ void ImpactLattice::add_mpm() {
       waves_.push_back(leapfrog(k, weight, Q * kept / 4));
       continue;
     }
-    require(Q * (1 + a * s * s) <= 4 * (1 + 1e-12), "the time step lies above the stability limit");
+    require_lattice(Q * (1 + a * s * s) <= 4 * (1 + 1e-12), "the time step lies above the stability limit");
     const double product = 1 - a * s * s * Q, middle = 1 - Q / 2, under = Q * (kept - Q / 4);
     if (under > 0) {
       const double base = std::copysign(std::sqrt(product), middle);
@@ -176,15 +176,15 @@ double ImpactLattice::phase(int k) const {
 }
 
 double impact_dispersion(const PlaneMedium& medium, const PlaneDiscretisation& d) {
-  check(medium, d);
-  require(d.method != Method::usl, "no width is known of USL's fronts, which it damps");
+  check_lattice(medium, d);
+  require_lattice(d.method != Method::usl, "no width is known of USL's fronts, which it damps");
   const double gamma = medium.mu * d.hx * d.hx / (modulus(medium) * d.hy * d.hy), C = courant(medium, d);
   const double a = d.method == Method::fem ? -(1 + 3 * gamma) / (9 * (1 + gamma)) : filter(d.positions);
   return 1 + 3 * a - C * C;
 }
 
 double front_width(const PlaneMedium& medium, const PlaneDiscretisation& d, double travelled) {
-  require(travelled >= 0, "a front has travelled a distance >= 0");
+  require_lattice(travelled >= 0, "a front has travelled a distance >= 0");
   return std::cbrt(std::abs(impact_dispersion(medium, d)) * travelled * d.hx * d.hx / 8);
 }
 

@@ -20,24 +20,24 @@ using Method = PlaneDiscretisation::Method;
 using Eigen::Matrix2Xd;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
-void require(bool condition, const char* message) {
+void require_plane(bool condition, const char* message) {
   if (!condition) throw std::invalid_argument(std::string("plane discretisation: ") + message);
 }
 
-void check(const PlaneDiscretisation& d) {
-  require(std::isfinite(d.hx) && d.hx > 0 && std::isfinite(d.hy) && d.hy > 0, "cell sizes must be > 0");
+void check_plane(const PlaneDiscretisation& d) {
+  require_plane(std::isfinite(d.hx) && d.hx > 0 && std::isfinite(d.hy) && d.hy > 0, "cell sizes must be > 0");
   if (d.method == Method::fem) return;
-  require(!d.positions.empty(), "a cell needs particles");
-  require(std::all_of(d.positions.begin(), d.positions.end(), [](double xi) { return xi >= 0 && xi <= 1; }),
-          "positions must lie in [0, 1]");
+  require_plane(!d.positions.empty(), "a cell needs particles");
+  require_plane(std::all_of(d.positions.begin(), d.positions.end(), [](double xi) { return xi >= 0 && xi <= 1; }),
+                "positions must lie in [0, 1]");
 }
 
 // --- one cell --------------------------------------------------------------------------------------------------------
 
 /// A place in a cell where a strain is taken: a triangle, or a particle.
-struct Place {
+struct LatticePlace {
   double x, y;      ///< from the cell's centre [m]
   double area;      ///< that it stands for [m²]
   VectorXd shape;   ///< of the cell's nodes; empty for a triangle
@@ -48,7 +48,7 @@ struct Place {
 /// freedom: x and y of each node in turn.
 struct Cell {
   std::vector<std::array<double, 2>> node;  ///< from the centre [m]
-  std::vector<Place> place;
+  std::vector<LatticePlace> place;
   VectorXd mass;  ///< lumped, per node [kg/m]
   MatrixXd consistent,
       stiffness;  ///< mass as the particles (lumped: the nodes) have it, per node; stiffness per degree of freedom
@@ -311,9 +311,9 @@ class March {
 };
 
 /// Adds up a norm; NaN anywhere makes it NaN.
-class Norm {
+class ErrorNorm {
  public:
-  explicit Norm(int p) : p_(p) {}
+  explicit ErrorNorm(int p) : p_(p) {}
   void add(double weight, const std::array<double, 3>& numerical, const std::array<double, 3>& exact) {
     double square = 0;
     for (std::size_t c = 0; c < 3; ++c)
@@ -341,8 +341,8 @@ long steps_at(const PlaneDiscretisation& d, PlaneQuantity quantity, double t) {
   if (quantity == PlaneQuantity::stress && d.method == Method::usf) ahead = -0.5;
   if (quantity == PlaneQuantity::displacement && d.method == Method::usf) ahead = 0.5;
   const double steps = t / d.time_step - ahead, whole = std::round(steps);
-  require(std::abs(steps - whole) <= 1e-6 && whole >= (ahead < 0 ? 1 : 0) && whole < 1e9,
-          "the quantity has no value at this time");
+  require_plane(std::abs(steps - whole) <= 1e-6 && whole >= (ahead < 0 ? 1 : 0) && whole < 1e9,
+                "the quantity has no value at this time");
   return static_cast<long>(whole);
 }
 
@@ -391,9 +391,9 @@ class Standing {
 
 std::optional<double> predicted_error(const PlaneSolution& solution, const PlaneDiscretisation& d,
                                       PlaneQuantity quantity, int norm, double t) {
-  check(d);
-  require(std::isfinite(d.time_step) && d.time_step > 0, "time step must be > 0");
-  require(norm >= 0 && norm <= 2, "norms are 1, 2 and 0 for the largest");
+  check_plane(d);
+  require_plane(std::isfinite(d.time_step) && d.time_step > 0, "time step must be > 0");
+  require_plane(norm >= 0 && norm <= 2, "norms are 1, 2 and 0 for the largest");
   const auto* mode = dynamic_cast<const PlaneMode*>(&solution);
   if (!mode || !mode->gives(quantity) || dynamic_cast<const StandingSWave*>(mode)) return std::nullopt;
   if (d.method != Method::fem && !symmetric(d.positions)) return std::nullopt;
@@ -428,7 +428,7 @@ std::optional<double> predicted_error(const PlaneSolution& solution, const Plane
                       : quantity == PlaneQuantity::displacement ? course.moved
                                                                 : course.gained;
   const MatrixXd moduli = hooke(mode->medium());
-  Norm error(norm);
+  ErrorNorm error(norm);
   MatrixXd value(2, static_cast<Eigen::Index>(cell.node.size()));
   for (int j = 0; j < ny; ++j) {
     for (int i = 0; i < nx; ++i) {
@@ -466,7 +466,7 @@ std::optional<double> predicted_error(const PlaneSolution& solution, const Plane
 }
 
 double interior_stability_limit(const PlaneMedium& medium, const PlaneDiscretisation& d) {
-  check(d);
+  check_plane(d);
   const Cell cell = make_cell(medium, d);
   const auto at = [&](double x, double y) { return limit(lattice(cell, pi * x / d.hx, pi * y / d.hy), d.method); };
   // 0 ≤ k_x h_x ≤ π and −π ≤ k_y h_y ≤ π have every wave; from the least found on, closer and closer around it
@@ -492,11 +492,11 @@ double interior_stability_limit(const PlaneMedium& medium, const PlaneDiscretisa
 }
 
 double free_stability_limit(const PlaneMedium& medium, const PlaneDiscretisation& d, int nx, int ny) {
-  check(d);
-  require(nx >= 1 && ny >= 1 && nx * ny <= 400, "a free rectangle has 1 to 400 cells");
+  check_plane(d);
+  require_plane(nx >= 1 && ny >= 1 && nx * ny <= 400, "a free rectangle has 1 to 400 cells");
   if (d.method != Method::fem) {  // the nodes beside an empty half of the outermost cells would have no mass
     const auto [least, most] = std::minmax_element(d.positions.begin(), d.positions.end());
-    require(*most > 0 && *least < 1, "particles must not all lie at one end of their cells");
+    require_plane(*most > 0 && *least < 1, "particles must not all lie at one end of their cells");
   }
   return limit(rectangle(make_cell(medium, d), nx, ny), d.method);
 }

@@ -4,16 +4,15 @@
 #include <limits>
 #include <stdexcept>
 
+#include "analytic/parameters.hpp"
 #include "analytic/residual.hpp"
 
 namespace diptych::analytic {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-class SelfTest {
+class PlaneSelfTest {
  public:
-  SelfTest(const PlaneSolution& solution, const PlaneProblem& problem, double t_end)
+  PlaneSelfTest(const PlaneSolution& solution, const PlaneProblem& problem, double t_end)
       : s_(solution), p_(problem), t_end_(t_end) {}
 
   PlaneResidual run() {
@@ -147,7 +146,7 @@ double PlaneResidual::worst() const {
 
 PlaneResidual self_test(const PlaneSolution& solution, const PlaneProblem& problem, double t_end) {
   if (!(t_end > 0) || !std::isfinite(t_end)) throw std::invalid_argument("self_test: t_end must be > 0 and finite");
-  return SelfTest(solution, problem, t_end).run();
+  return PlaneSelfTest(solution, problem, t_end).run();
 }
 
 }  // namespace diptych::analytic

@@ -5,16 +5,16 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "analytic/parameters.hpp"
+
 namespace diptych::analytic {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
-void require(bool condition, const char* message) {
+void require_mode(bool condition, const char* message) {
   if (!condition) throw std::invalid_argument(std::string("plane mode: ") + message);
 }
-
-bool positive(double x) { return std::isfinite(x) && x > 0; }
 
 PlaneWave lame(const SquareMode& p) {
   const double k = p.mode * pi / p.side;
@@ -48,13 +48,13 @@ PlaneWave shear(const RectangleMode& p) {
 
 PlaneMode::PlaneMode(const PlaneMedium& medium, double width, double height, const PlaneWave& wave)
     : medium_(medium), width_(width), height_(height), wave_(wave) {
-  require(positive(medium.mu), "mu must be > 0");
-  require(std::isfinite(medium.lambda) && medium.lambda + medium.mu > 0, "lambda + mu must be > 0");
-  require(positive(medium.density), "density must be > 0");
-  require(positive(width) && positive(height), "sides must be > 0");
-  require(wave.wave_number[0] > 0, "mode must be >= 1");
+  require_mode(positive(medium.mu), "mu must be > 0");
+  require_mode(std::isfinite(medium.lambda) && medium.lambda + medium.mu > 0, "lambda + mu must be > 0");
+  require_mode(positive(medium.density), "density must be > 0");
+  require_mode(positive(width) && positive(height), "sides must be > 0");
+  require_mode(wave.wave_number[0] > 0, "mode must be >= 1");
   const double amplitude = std::hypot(wave.amplitude[0], wave.amplitude[1]);
-  require(positive(amplitude), "amplitude must be finite and not zero");
+  require_mode(positive(amplitude), "amplitude must be finite and not zero");
 }
 
 std::array<double, 3> PlaneMode::at(PlaneQuantity quantity, double x, double y, double t) const {

@@ -6,34 +6,33 @@
 #include <stdexcept>
 #include <string>
 
+#include "analytic/parameters.hpp"
 #include "analytic/residual.hpp"
 
 namespace diptych::analytic {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-void require(bool condition, const char* message) {
+void require_plastic(bool condition, const char* message) {
   if (!condition) throw std::invalid_argument(std::string("plastic-impact: ") + message);
 }
-
-bool positive(double x) { return std::isfinite(x) && x > 0; }
 
 }  // namespace
 
 PlasticImpact::PlasticImpact(Parameters p) : p_(p) {
-  require(positive(p_.youngs_modulus), "Young's modulus must be > 0");
-  require(positive(p_.density), "density must be > 0");
-  require(positive(p_.yield_stress), "yield stress must be > 0");
-  require(positive(p_.length), "length must be > 0");
-  require(std::isfinite(p_.gap) && p_.gap >= 0, "the gap must be >= 0");
-  require(std::isfinite(p_.left_velocity) && std::isfinite(p_.right_velocity), "velocities must be finite");
-  require(p_.left_velocity > p_.right_velocity, "the left velocity must exceed the right one, or the bars never meet");
+  require_plastic(positive(p_.youngs_modulus), "Young's modulus must be > 0");
+  require_plastic(positive(p_.density), "density must be > 0");
+  require_plastic(positive(p_.yield_stress), "yield stress must be > 0");
+  require_plastic(positive(p_.length), "length must be > 0");
+  require_plastic(std::isfinite(p_.gap) && p_.gap >= 0, "the gap must be >= 0");
+  require_plastic(std::isfinite(p_.left_velocity) && std::isfinite(p_.right_velocity), "velocities must be finite");
+  require_plastic(p_.left_velocity > p_.right_velocity,
+                  "the left velocity must exceed the right one, or the bars never meet");
   c_ = std::sqrt(p_.youngs_modulus / p_.density);
   speed_ = (p_.left_velocity - p_.right_velocity) / 2;
   yield_speed_ = p_.yield_stress / (p_.density * c_);
   period_ = 2 * p_.length / c_;
-  require(speed_ <= 1e4 * yield_speed_, "the impact is more than 1e4 times as fast as the one that just yields");
+  require_plastic(speed_ <= 1e4 * yield_speed_,
+                  "the impact is more than 1e4 times as fast as the one that just yields");
   double a = speed_;
   for (; a > 0; a = a > yield_speed_ ? a - 2 * yield_speed_ : -a) arriving_.push_back(a);
   arriving_.push_back(a);
@@ -119,9 +118,9 @@ namespace {
 
 /// Knows the parameters only, not the recurrence: only where contact begins, and that nothing but a characteristic that
 /// left the faces a whole number of periods later can be a front.
-class SelfTest {
+class PlasticSelfTest {
  public:
-  SelfTest(const ExactSolution& solution, const PlasticImpact::Parameters& parameters, double t_end)
+  PlasticSelfTest(const ExactSolution& solution, const PlasticImpact::Parameters& parameters, double t_end)
       : s_(solution), p_(parameters), t_end_(t_end) {}
 
   Residual run() {
@@ -255,7 +254,7 @@ class SelfTest {
 
 Residual self_test(const ExactSolution& solution, const PlasticImpact::Parameters& parameters, double t_end) {
   if (!(t_end > 0) || !std::isfinite(t_end)) throw std::invalid_argument("self_test: t_end must be > 0 and finite");
-  return SelfTest(solution, parameters, t_end).run();
+  return PlasticSelfTest(solution, parameters, t_end).run();
 }
 
 double PlasticImpact::residual(double t_end) const { return self_test(*this, t_end).worst(); }

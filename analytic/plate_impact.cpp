@@ -5,26 +5,23 @@
 #include <limits>
 #include <stdexcept>
 
+#include "analytic/parameters.hpp"
 #include "analytic/residual.hpp"
 
 namespace diptych::analytic {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-void require(bool condition, const char* message) {
+void require_plates(bool condition, const char* message) {
   if (!condition) throw std::invalid_argument(std::string("plate impact: ") + message);
 }
 
-bool positive(double x) { return std::isfinite(x) && x > 0; }
-
-void check(const PlateImpact::Parameters& p) {
-  require(positive(p.medium.mu), "mu must be > 0");
-  require(std::isfinite(p.medium.lambda) && p.medium.lambda + p.medium.mu > 0, "lambda + mu must be > 0");
-  require(positive(p.medium.density), "density must be > 0");
-  require(positive(p.width) && positive(p.height), "sides must be > 0");
-  require(p.face > 0 && p.face < p.width, "the face must lie between the ends");
-  require(positive(p.velocity), "velocity must be > 0");
+void check_plates(const PlateImpact::Parameters& p) {
+  require_plates(positive(p.medium.mu), "mu must be > 0");
+  require_plates(std::isfinite(p.medium.lambda) && p.medium.lambda + p.medium.mu > 0, "lambda + mu must be > 0");
+  require_plates(positive(p.medium.density), "density must be > 0");
+  require_plates(positive(p.width) && positive(p.height), "sides must be > 0");
+  require_plates(p.face > 0 && p.face < p.width, "the face must lie between the ends");
+  require_plates(positive(p.velocity), "velocity must be > 0");
 }
 
 /// Path of a front that left `start` in `direction`, folded at the ends.
@@ -40,7 +37,7 @@ Front place(double start, int direction, double width, double path) {
 }  // namespace
 
 PlateImpact::PlateImpact(const Parameters& p) : p_(p), c_(0) {
-  check(p);
+  check_plates(p);
   c_ = p.medium.pressure_speed();
 }
 
@@ -123,9 +120,9 @@ std::vector<Front> PlateImpact::fronts(double t) const {
 
 namespace {
 
-class SelfTest {
+class ImpactSelfTest {
  public:
-  SelfTest(const PlaneSolution& solution, const PlateImpact::Parameters& p, double t_end)
+  ImpactSelfTest(const PlaneSolution& solution, const PlateImpact::Parameters& p, double t_end)
       : s_(solution), p_(p), t_end_(t_end) {}
 
   ImpactResidual run() {
@@ -265,9 +262,9 @@ double ImpactResidual::worst() const {
 }
 
 ImpactResidual self_test(const PlaneSolution& solution, const PlateImpact::Parameters& p, double t_end) {
-  check(p);
-  require(positive(t_end), "the self-test's t_end must be > 0 and finite");
-  return SelfTest(solution, p, t_end).run();
+  check_plates(p);
+  require_plates(positive(t_end), "the self-test's t_end must be > 0 and finite");
+  return ImpactSelfTest(solution, p, t_end).run();
 }
 
 double PlateImpact::residual(const PlaneWindow& window) const { return self_test(*this, p_, window.to).worst(); }

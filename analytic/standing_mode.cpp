@@ -5,23 +5,23 @@
 #include <stdexcept>
 #include <string>
 
+#include "analytic/parameters.hpp"
+
 namespace diptych::analytic {
 namespace {
 
-void require(bool condition, const char* message) {
+void require_standing(bool condition, const char* message) {
   if (!condition) throw std::invalid_argument(std::string("standing-mode: ") + message);
 }
-
-bool positive(double x) { return std::isfinite(x) && x > 0; }
 
 }  // namespace
 
 StandingMode::StandingMode(Parameters p) : p_(p) {
-  require(positive(p_.youngs_modulus), "Young's modulus must be > 0");
-  require(positive(p_.density), "density must be > 0");
-  require(positive(p_.length), "length must be > 0");
-  require(p_.mode >= 1, "mode must be >= 1");
-  require(std::isfinite(p_.amplitude) && p_.amplitude != 0, "amplitude must be finite and not zero");
+  require_standing(positive(p_.youngs_modulus), "Young's modulus must be > 0");
+  require_standing(positive(p_.density), "density must be > 0");
+  require_standing(positive(p_.length), "length must be > 0");
+  require_standing(p_.mode >= 1, "mode must be >= 1");
+  require_standing(std::isfinite(p_.amplitude) && p_.amplitude != 0, "amplitude must be finite and not zero");
 }
 
 double StandingMode::wave_speed() const { return std::sqrt(p_.youngs_modulus / p_.density); }

@@ -7,23 +7,22 @@
 #include <vector>
 
 #include "analytic/bar_wave.hpp"
+#include "analytic/parameters.hpp"
 
 namespace diptych::analytic {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
-void require(bool condition, const char* message) {
+void require_viscous(bool condition, const char* message) {
   if (!condition) throw std::invalid_argument(message);
 }
-
-bool positive(double x) { return std::isfinite(x) && x > 0; }
 
 /// √(2νt). Viscosity of u_tt = c² u_xx + ν u_xxt diffuses a wave of one direction with ν/2, and ½ erfc(x/√(4·ν/2·t)) is
 /// how a step diffuses.
 double spread(double viscosity, double t) {
-  require(positive(viscosity), "viscous front: viscosity must be > 0");
-  require(positive(t), "viscous front: time must be > 0");
+  require_viscous(positive(viscosity), "viscous front: viscosity must be > 0");
+  require_viscous(positive(t), "viscous front: time must be > 0");
   return std::sqrt(2 * viscosity * t);
 }
 
@@ -79,8 +78,8 @@ std::optional<std::vector<Front>> smoothed_fronts(const BarWave& bar, double vis
 // 1 − a₀² ≥ |a₁ − a₀a₂| follows from it, as bα ≤ 2α/(1 + α) does. USL's end cell is this with 4Cs·Cs put for C²/S,
 // 1 − α for g, of the names in stability_limit of discrete.cpp: (2 − g)(C² + 2c₁C)/S ≤ 4 = (2 − g) C₀²/S.
 double viscous_stability_limit(double inviscid_limit, double c1) {
-  require(positive(inviscid_limit), "viscous_stability_limit: the inviscid limit must be > 0");
-  require(std::isfinite(c1) && c1 >= 0, "viscous_stability_limit: c1 must be >= 0");
+  require_viscous(positive(inviscid_limit), "viscous_stability_limit: the inviscid limit must be > 0");
+  require_viscous(std::isfinite(c1) && c1 >= 0, "viscous_stability_limit: c1 must be >= 0");
   return inviscid_limit * inviscid_limit / (std::hypot(c1, inviscid_limit) + c1);  // no cancellation for large c₁
 }
 
@@ -94,8 +93,8 @@ double viscous_front_l2(double viscosity, double t) { return std::sqrt(square_of
 
 std::optional<double> viscous_step_error(const ExactSolution& solution, double viscosity, BarQuantity quantity,
                                          Norm norm, double t) {
-  require(positive(viscosity), "viscous_step_error: viscosity must be > 0");
-  require(std::isfinite(t), "viscous_step_error: time must be finite");
+  require_viscous(positive(viscosity), "viscous_step_error: viscosity must be > 0");
+  require_viscous(std::isfinite(t), "viscous_step_error: time must be finite");
   const auto* bar = dynamic_cast<const BarWave*>(&solution);
   if (!bar || !steps_only(*bar) || quantity == BarQuantity::displacement || norm == Norm::linf) return std::nullopt;
   const auto fronts = smoothed_fronts(*bar, viscosity, t);

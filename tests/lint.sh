@@ -15,19 +15,14 @@ case $what in
   tidy)
     need clang-tidy-19 clang-tidy-19
     tidy() { clang-tidy-19 --quiet "$@" 2> >(grep -vE '^[0-9]+ warnings? (and [0-9]+ errors? )?generated' >&2); }
-    # A folder that the build compiles several files at once is read all at once: most of the work is what they include.
-    flags=$(sed -n "s#^  \"command\": \"[^ ]* \(.*\) -o .*/diptych_$4[.]dir/Unity/.*#\1#p" "$3/compile_commands.json")
-    if [ -n "$flags" ]; then
-      mapfile -t files < <(find "$4" -name '*.cpp' ! -path runner/app/main.cpp | sort)
-      printf "#include \"$PWD/%s\"\n" "${files[@]}" >"$3/tidy_$4.cpp"
-      # shellcheck disable=SC2086
-      tidy "$3/tidy_$4.cpp" -- ${flags%%$'\n'*}
-      [ "$4" != runner ] || tidy -p "$3" "$PWD/runner/app/main.cpp"
-    else
-      mapfile -t files < <(sed -n "s#^  \"file\": \"\($PWD/$4/.*[.]cpp\)\".*#\1#p" "$3/compile_commands.json" | sort -u)
-      [ "${#files[@]}" -gt 0 ] || { echo "no sources of $4 in $3/compile_commands.json"; exit 1; }
-      tidy -p "$3" "${files[@]}"
-    fi
+    # The sources of a folder are read all at once: most of the work is what they include.
+    flags=$(sed -n "s#^  \"command\": \"[^ ]* \(.*\) -Winvalid-pch .*/diptych_$4[.]dir/.*#\1#p" "$3/compile_commands.json")
+    mapfile -t files < <(find "$PWD/$4" "$3/generated/$4" -name '*.cpp' ! -path '*/app/main.cpp' 2>/dev/null | sort)
+    [ -n "$flags" ] || { echo "no sources of $4 in $3/compile_commands.json"; exit 1; }
+    printf '#include "%s"\n' "${files[@]}" >"$3/tidy_$4.cpp"
+    # shellcheck disable=SC2086
+    tidy "$3/tidy_$4.cpp" -- ${flags%%$'\n'*}
+    [ "$4" != runner ] || tidy -p "$3" "$PWD/runner/app/main.cpp"
     ;;
 esac
 echo "${#files[@]} files"

@@ -12,7 +12,7 @@
 namespace diptych::diffusion {
 namespace {
 
-void require(bool condition, const char* message) {
+void require_evolution(bool condition, const char* message) {
   if (!condition) throw std::invalid_argument(std::string("damage evolution: ") + message);
 }
 
@@ -72,17 +72,17 @@ double area_within(double radius, double x0, double x1, double y0, double y1) {
 
 DamageEvolution::DamageEvolution(const Evolution& evolution, CrackGrowth growth, const Grid& grid)
     : evolution_(evolution), growth_(std::move(growth)), grid_(grid) {
-  require(evolution.cap >= 0, "the cap must be >= 0");
-  require(evolution.rate == Rate::tracked || evolution.reference_rate > 0, "the reference rate must be > 0");
-  require(evolution.rate == Rate::reference || evolution.rate_floor > 0, "the rate's floor must be > 0");
+  require_evolution(evolution.cap >= 0, "the cap must be >= 0");
+  require_evolution(evolution.rate == Rate::tracked || evolution.reference_rate > 0, "the reference rate must be > 0");
+  require_evolution(evolution.rate == Rate::reference || evolution.rate_floor > 0, "the rate's floor must be > 0");
   if (evolution.diffusion) {
     const Diffusion& d = *evolution.diffusion;
-    require(d.characteristic_time > 0, "the characteristic time must be > 0");
-    require(d.crack_volume > 0, "the crack volume must be > 0");
-    require(d.rupture_strain > 0, "the rupture strain must be > 0");
-    require(d.mobility >= 0, "the mobility must be >= 0");
-    require(d.floor >= 0 && d.floor <= 1, "the floor must lie between 0 and 1");
-    require(d.source != Source::zone || d.radius >= 0, "the radius must be >= 0");
+    require_evolution(d.characteristic_time > 0, "the characteristic time must be > 0");
+    require_evolution(d.crack_volume > 0, "the crack volume must be > 0");
+    require_evolution(d.rupture_strain > 0, "the rupture strain must be > 0");
+    require_evolution(d.mobility >= 0, "the mobility must be >= 0");
+    require_evolution(d.floor >= 0 && d.floor <= 1, "the floor must lie between 0 and 1");
+    require_evolution(d.source != Source::zone || d.radius >= 0, "the radius must be >= 0");
     concentration_.emplace(grid, d.scheme, d.reading, d.drift);
     place_source();
     source_.assign(grid.nodes(), 0);
@@ -148,8 +148,8 @@ double DamageEvolution::rate(std::size_t k, double strain, double dt) {
 }
 
 void DamageEvolution::advance(std::span<const double> strain, double dt) {
-  require(strain.size() == grid_.cells(), "one strain a cell");
-  require(std::isfinite(dt) && dt > 0, "dt must be finite and > 0");
+  require_evolution(strain.size() == grid_.cells(), "one strain a cell");
+  require_evolution(std::isfinite(dt) && dt > 0, "dt must be finite and > 0");
   for (std::size_t cell = 0; cell < critical_.size(); ++cell)
     critical_[cell] = static_cast<unsigned char>(critical_[cell] | !(strain[cell] < evolution_.critical_strain));
   concentration_ ? diffuse(strain, dt) : local(strain, dt);
