@@ -46,6 +46,7 @@ inline Json env_of(const Provenance& made_by) {
           {"dirty", made_by.dirty},
           {"compiler", made_by.compiler},
           {"flags", made_by.flags},
+          {"libraries", made_by.libraries},
           {"cpu", made_by.cpu},
           {"os", made_by.os}};
 }

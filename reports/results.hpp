@@ -235,7 +235,7 @@ struct Case {
 
 /// What made the results.
 struct Provenance {
-  std::string version, commit, compiler, flags, cpu, os;
+  std::string version, commit, compiler, flags, libraries, cpu, os;
   bool dirty = false;
 };
 

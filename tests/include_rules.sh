@@ -29,7 +29,8 @@ named=$(grep -rnE '"(fem|mpm)[-"]' runner reports --include='*.[ch]pp' | grep -v
 [ -z "$named" ] || { echo "a method's name outside of runner/panel.cpp:"; echo "$named"; broken=1; }
 only runner/input 'hinge|analytic|reports|runner/(input|panel|diffusion_alone)'
 only runner/compare 'hinge|analytic|reports|runner/(input|compare|panel)'
-only runner/run 'hinge|analytic|reports|runner/(input|compare|run|panel|diffusion_alone)'
+only runner/store 'reports|runner/store'
+only runner/run 'hinge|analytic|reports|runner/(input|compare|store|run|panel|diffusion_alone)'
 only runner/judge 'hinge|analytic|reports|runner/(input|compare|run|judge|panel|registry)'
 only runner/draw 'hinge|analytic|reports|runner/(input|compare|draw|panel|registry)'
 # A case is read anew with a key of its file changed.

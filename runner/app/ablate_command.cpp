@@ -8,6 +8,7 @@
 #include "runner/ablate/ablate.hpp"
 #include "runner/app/catalogue.hpp"
 #include "runner/app/commands.hpp"
+#include "runner/app/keeping.hpp"
 #include "runner/app/provenance.hpp"
 #include "runner/app/showing.hpp"
 #include "runner/input/messages.hpp"
@@ -24,7 +25,10 @@ int ablate_command(const Options& options, const std::atomic<bool>& cancelled) {
   plan.rounds = options.rounds;
   Running running{threads_of(options), &cancelled};
   running.progress = progress();
+  const auto keeping = keeping_of(options);
+  running.keeping = keeping.get();
   const reports::AblationStudy study = ablate(c, plan, running);
+  tell_kept(keeping.get());
   fmt::print("{}", reports::ablation_text(study));
   const auto folder = options.out / "ablate";
   reports::write_file(folder / (study.case_id + ".csv"), reports::ablation_csv(study));

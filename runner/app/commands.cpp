@@ -15,6 +15,7 @@
 #include "reports/vtu.hpp"
 #include "runner/app/case_file.hpp"
 #include "runner/app/catalogue.hpp"
+#include "runner/app/keeping.hpp"
 #include "runner/app/provenance.hpp"
 #include "runner/app/showing.hpp"
 #include "runner/draw/figure_kinds.hpp"
@@ -62,6 +63,8 @@ std::vector<reports::Case> measure_cases(const std::vector<Case>& cases, const O
   const bool judge_only = purpose == Purpose::judge;
   Running running{threads_of(options), &cancelled, options.books, options.fields, judge_only};
   running.progress = progress();
+  const auto keeping = keeping_of(options);
+  running.keeping = keeping.get();
   Failed failed(cases);
   if (options.fail_fast) {
     running.cheapest_first = true;
@@ -69,6 +72,7 @@ std::vector<reports::Case> measure_cases(const std::vector<Case>& cases, const O
     running.finished = [&](std::size_t which, const reports::Run& run) { failed.take(which, run); };
   }
   auto results = run_cases(cases, running);
+  tell_kept(keeping.get());
   for (std::size_t i = 0; i < cases.size(); ++i) {
     if (!options.only.empty()) continue;  // gates and figures speak of all runs
     for (std::size_t g = 0; g < cases[i].gates.size(); ++g) {

@@ -15,7 +15,10 @@ struct Options {
   std::vector<std::string> selectors;
   std::filesystem::path out = "out";
   std::filesystem::path json, junit;
-  int threads = 0;  ///< 0: all there are
+  std::filesystem::path store;  ///< where runs are kept; empty: "store" in `out`; "none": nowhere
+  bool fresh = false;           ///< make all runs anew, whatever the store has
+  bool all = false;             ///< store prune: all of it
+  int threads = 0;              ///< 0: all there are
   bool quick = false;
   bool fail_fast = false;  ///< gate: no further runs for a gate that has failed
   bool declarations = false;
@@ -53,6 +56,7 @@ std::string bench_footer();  ///< of its help: an example, and the scenes that t
 int stability_command(const Options&, const std::atomic<bool>& cancelled);
 int list_command(const Options&);
 int show_command(const Options&);
+int store_command(const Options&);
 int paper_command(const Options&, const std::atomic<bool>& cancelled);
 int test_command(const Options&);
 std::string version_text();

@@ -44,6 +44,14 @@ int main(int argc, char** argv) {
   const auto add_out = [&](CLI::App* command) {
     command->add_option("--out", options.out, "directory for results")->capture_default_str();
   };
+  const auto add_store = [&](CLI::App* command) {
+    command
+        ->add_option("--store", options.store,
+                     "folder in which runs are kept and looked for before they are made; 'none': nowhere; 'store' in "
+                     "the directory for results, out, without it")
+        ->envname("DIPTYCH_STORE");
+    command->add_flag("--fresh", options.fresh, "make every run anew, whatever the store has");
+  };
   const auto add_cases = [&](CLI::App* command, bool required) {
     auto* option =
         command->add_option("CASE", options.selectors, "case file, id, or pattern over ids; CASE/GATE for one gate");
@@ -54,6 +62,7 @@ int main(int argc, char** argv) {
   paper->add_option("FIGURE", options.selectors, "fig1, fig2, fig3, ...; all without one");
   add_out(paper);
   add_threads(paper);
+  add_store(paper);
   paper->callback([&] { status = paper_command(options, cancelled); });
 
   auto* test = app.add_subcommand("test", "unit tests, gates and planted defects");
@@ -77,6 +86,7 @@ int main(int argc, char** argv) {
   run->add_flag("--fields", options.fields,
                 "also write all fields at the sample times: of plates VTU and PVD, for ParaView, of bars CSV");
   add_threads(run);
+  add_store(run);
   run->callback([&] {
     options.books = ledger ? diptych::Books::lines : diptych::Books::sums;  // its tables show them
     status = run_command(options, cancelled);
@@ -105,6 +115,7 @@ int main(int argc, char** argv) {
     command->add_option("--limit-seconds", options.limit, "a run that takes longer is stopped, a point \"timed out\"")
         ->check(CLI::PositiveNumber);
     add_threads(command);
+    add_store(command);
   };
   auto* trade = app.add_subcommand("trade", "every setting of a case, its error against its cost");
   add_trade(trade);
@@ -154,6 +165,7 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   add_out(ablate);
   add_threads(ablate);
+  add_store(ablate);
   ablate->footer("Example: diptych ablate impact.hardening --cells 100");
   ablate->callback([&] {
     options.rounds = rounds;
@@ -187,17 +199,31 @@ int main(int argc, char** argv) {
   gate->add_option("--json", options.json, "also write results to this file (JSON lines)");
   gate->add_option("--junit", options.junit, "also write verdicts to this file (JUnit XML)");
   add_threads(gate);
+  add_store(gate);
   gate->callback([&] { status = gate_command(options, cancelled); });
 
   auto* explain = app.add_subcommand("explain", "formula, numbers, prediction and margin of a gate");
   explain->add_option("GATE", options.selectors, "CASE/GATE")->required();
   add_threads(explain);
+  add_store(explain);
   explain->callback([&] { status = explain_command(options, cancelled); });
 
   auto* list = app.add_subcommand("list", "cases and their gates");
   add_cases(list, false);
   list->add_flag("--declarations", options.declarations, "every key of scenes and gates, as in cases/gates.lock");
   list->callback([&] { status = list_command(options); });
+
+  auto* store = app.add_subcommand("store", "what is kept of runs that were made");
+  store->add_option(
+      "WHAT", options.selectors,
+      "list; verify: read every record, and name those that are not whole; prune: remove those, and those of "
+      "other builds of the program");
+  store->add_option("--store", options.store, "its folder; 'store' in the directory for results without it")
+      ->envname("DIPTYCH_STORE");
+  add_out(store);
+  store->add_flag("--all", options.all, "prune: remove all of it");
+  store->footer("Example: diptych store verify");
+  store->callback([&] { status = store_command(options); });
 
   auto* show = app.add_subcommand("show", "a case's scene, runs and gates");
   add_cases(show, true);

@@ -1,6 +1,11 @@
 #include "runner/app/provenance.hpp"
 
+#include <fmt/core.h>
+#include <gsl/gsl_version.h>
+#include <muParser.h>
 #include <sys/utsname.h>
+#include <tbb/version.h>
+#include <toml++/impl/version.h>
 
 #include <fstream>
 #include <string>
@@ -32,6 +37,8 @@ reports::Provenance provenance() {
   p.dirty = DIPTYCH_DIRTY;
   p.compiler = DIPTYCH_COMPILER;
   p.flags = DIPTYCH_FLAGS;
+  p.libraries = fmt::format("GSL {}, TBB {}, muParser {}, toml++ {}.{}.{}", gsl_version, TBB_runtime_version(),
+                            mu::Parser().GetVersion(mu::pviBRIEF), TOML_LIB_MAJOR, TOML_LIB_MINOR, TOML_LIB_PATCH);
   p.cpu = value_of("/proc/cpuinfo", "model name");
   utsname name{};
   p.os = value_of("/etc/os-release", "PRETTY_NAME") + (uname(&name) == 0 ? std::string(", ") + name.machine : "");

@@ -12,6 +12,7 @@
 #include "reports/trade_table.hpp"
 #include "runner/app/catalogue.hpp"
 #include "runner/app/commands.hpp"
+#include "runner/app/keeping.hpp"
 #include "runner/app/provenance.hpp"
 #include "runner/app/showing.hpp"
 #include "runner/input/messages.hpp"
@@ -63,10 +64,11 @@ reports::Cost cost_asked(const Options& options) {
                                  : reports::Cost::work;
 }
 
-Running running_of(const Options& options, const std::atomic<bool>& cancelled) {
+Running running_of(const Options& options, const std::atomic<bool>& cancelled, Keeping* keeping) {
   Running running{threads_of(options), &cancelled};
   running.progress = progress();
   running.limit_seconds = options.limit;
+  running.keeping = keeping;
   return running;
 }
 
@@ -155,7 +157,9 @@ int trade_command(const Options& options, const std::atomic<bool>& cancelled) {
   const reports::Cost cost = cost_asked(options);
   const Asked asked = asked_of_trade(options);
   prepare(options.out);
-  const reports::Trade trade = measure_trade(asked.cases, running_of(options, cancelled), asked.timing);
+  const auto keeping = keeping_of(options);
+  const reports::Trade trade = measure_trade(asked.cases, running_of(options, cancelled, keeping.get()), asked.timing);
+  tell_kept(keeping.get());
   if (cancelled && trade.aims().empty()) return unstable_or_error;  // nothing to show yet
   const reports::Trade shown = of_scene(trade, scene_asked(options, trade));
   const reports::Aim aim = aim_of(options, shown);
@@ -180,7 +184,8 @@ int pick_command(const Options& options, const std::atomic<bool>& cancelled) {
       throw InputError(fmt::format("--memory: found {}; allowed: bytes, or 100k, 512M, 1G", words(options.memory)));
   }
   const Asked asked = asked_of_trade(options);
-  const Running running = running_of(options, cancelled);
+  const auto keeping = keeping_of(options);
+  const Running running = running_of(options, cancelled, keeping.get());
   reports::Trade trade = measure_trade(asked.cases, running, asked.timing);
   if (stopped(trade) || cancelled) return unstable_or_error;
   trade = of_scene(trade, scene_asked(options, trade));

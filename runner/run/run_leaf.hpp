@@ -14,6 +14,8 @@
 namespace diptych::runner {
 
 /// How to run, as against what.
+struct Keeping;
+
 struct Running {
   int threads = 1;                               ///< for all runs together
   const std::atomic<bool>* cancelled = nullptr;  ///< turns true where runs should stop soon
@@ -28,6 +30,7 @@ struct Running {
   std::function<void(std::size_t done, std::size_t total)> progress = {};  ///< after each run, likewise
   int threads_a_run = 1;                                                   ///< of plates; the same bits for any number
   std::optional<double> limit_seconds = {};  ///< run_cases stops a run that takes longer: status "timed out"
+  Keeping* keeping = nullptr;                ///< where run_cases looks for runs that were made before; null: nowhere
 };
 
 // The case of the next four is the one that the leaf has: see case_of.

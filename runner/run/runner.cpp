@@ -41,6 +41,7 @@ struct Task {
   TimeStep step{};
   double work = 0;           ///< about as many updates of unknowns
   std::string refused = {};  ///< why it may not be run
+  std::string words = {};    ///< all that its run can see
   std::vector<Task> same{};  ///< of other cases, which get its results, too
 };
 
@@ -49,17 +50,39 @@ void share(std::vector<Task>& tasks, const Running& running) {
   std::map<std::string, std::size_t> first;
   std::vector<Task> made;
   for (Task& task : tasks) {
-    const auto words = running.wanted ? std::nullopt : words_of_run(*task.c, task.leaf, running);
-    if (words) {
-      const auto [place, is_new] = first.try_emplace(*words, made.size());
-      if (!is_new) {
-        made[place->second].same.push_back(std::move(task));
-        continue;
-      }
-    }
-    made.push_back(std::move(task));
+    task.words = words_of_run(*task.c, task.leaf, running);
+    const auto [place, is_new] = first.try_emplace(task.words, made.size());
+    if (is_new || running.wanted)
+      made.push_back(std::move(task));
+    else
+      made[place->second].same.push_back(std::move(task));
   }
   tasks = std::move(made);
+}
+
+/// A run that was made before. One whose bits a gate wants compared is made again, whatever the store has: that it
+/// comes out the same is what is asked.
+std::optional<reports::Run> run_made_before(const Task& task, const Running& running) {
+  if (!running.keeping || running.keeping->fresh || running.limit_seconds) return {};
+  const bool bits = std::any_of(task.c->gates.begin(), task.c->gates.end(), [&](const GateSpec& gate) {
+    return gate.quantity.starts_with("bits.") && matches(gate.where, task.leaf);
+  });
+  if (bits) return {};
+  auto run = running.keeping->store.find(task.words);
+  if (run) ++running.keeping->found;
+  return run;
+}
+
+/// What the same run would come to again is kept; what was stopped, or went wrong, is not.
+void keep_run(const Task& task, const reports::Run& run, Keeping& keeping) {
+  if (run.status != "completed" && run.status != "unstable" && run.status != "left-grid") return;
+  try {
+    keeping.store.keep(task.words, run);
+    ++keeping.kept;
+  } catch (const std::exception& problem) {
+    const std::lock_guard<std::mutex> lock(keeping.telling);
+    if (!keeping.trouble) keeping.trouble = problem.what();
+  }
 }
 
 }  // namespace
@@ -145,6 +168,9 @@ std::vector<reports::Case> run_cases(const std::vector<Case>& cases, const Runni
     };
     if (!wanted()) {
       run.status = "left out";
+    } else if (auto before = run_made_before(task, running)) {
+      before->case_id = run.case_id;
+      run = std::move(*before);
     } else {
       try {
         Running one = running;
@@ -162,6 +188,7 @@ std::vector<reports::Case> run_cases(const std::vector<Case>& cases, const Runni
         run.status = "error";
         run.message = problem.what();
       }
+      if (running.keeping) keep_run(task, run, *running.keeping);
     }
     const auto hand_over = [&](const Task& to, reports::Run& result) {
       if (const std::string& doubt = doubts.at({to.which, to.leaf.variant}); !doubt.empty()) result.invalid = doubt;

@@ -1,14 +1,29 @@
 // Running a case: every leaf of its sweep, in parallel, with the same bits whatever the number of threads.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
+#include <mutex>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "reports/results.hpp"
 #include "runner/input/case.hpp"
 #include "runner/run/run_leaf.hpp"
+#include "runner/store/store.hpp"
 
 namespace diptych::runner {
+
+/// Runs that were made before are taken from a store, and those that are made are kept there as each of them ends.
+struct Keeping {
+  Store store;
+  bool fresh = false;                       ///< make all of them anew
+  std::atomic<std::size_t> found{0};        ///< taken from the store
+  std::atomic<std::size_t> kept{0};         ///< written to it
+  std::mutex telling = {};                  ///< of the next
+  std::optional<std::string> trouble = {};  ///< why one could not be kept, which costs no run
+};
 
 /// Runs all leaves of all cases. Throws InputError before the first run where a leaf asks for a Courant number above
 /// the method's limit and its case does not allow it. Runs not begun when `cancelled` turns true are left out with

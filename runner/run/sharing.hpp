@@ -1,7 +1,6 @@
-// Runs that cases have in common are made once.
+// Runs that cases have in common are made once, and those that a store has are not made again.
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "runner/input/case.hpp"
@@ -10,10 +9,9 @@
 
 namespace diptych::runner {
 
-/// All that a run of a plate can see of its case, in words: the scene as cases/gates.lock keeps it but for the axes, of
-/// which the leaf is one point; what gates and tables have kept or run beside it. Runs of equal words have equal
-/// results but for the case's id. Nothing where runs are not shared: of bars, which are cheap and whose figures keep
-/// what they draw, of variants, and of cases whose file's keys were changed.
-std::optional<std::string> words_of_run(const Case& of_leaf, const Leaf&, const Running&);
+/// All that a run can see of its case, in words: the scene as cases/gates.lock keeps it but for the axes, of which the
+/// leaf is one point; what gates, figures and tables have kept or run beside it. Runs of equal words have equal results
+/// but for the case's id and the seconds they took.
+std::string words_of_run(const Case& of_leaf, const Leaf&, const Running&);
 
 }  // namespace diptych::runner

@@ -1,0 +1,22 @@
+// Where the commands keep what their runs measured.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "runner/app/commands.hpp"
+#include "runner/run/runner.hpp"
+
+namespace diptych::runner {
+
+/// What made this program's numbers: version, commit, compiler, flags, libraries, the hash of the program itself, and
+/// what its environment tells it.
+std::string build_of_this_program();
+
+/// The store that --store names; null for "none".
+std::unique_ptr<Keeping> keeping_of(const Options&);
+
+/// What was taken from the store and what was kept there, on standard error; nothing where there was neither.
+void tell_kept(const Keeping*);
+
+}  // namespace diptych::runner
