@@ -58,11 +58,30 @@ class Failed {
   std::vector<std::vector<std::optional<reports::Gate>>> gates_;
 };
 
+Running running_for(const Options& options, Purpose purpose, const std::atomic<bool>& cancelled) {
+  Running running{threads_of(options), &cancelled, options.books, options.fields, purpose == Purpose::judge};
+  running.progress = progress();
+  return running;
+}
+
+/// A store that lacks a run cannot be judged. Throws InputError with those that it lacks.
+void require_all(const std::vector<reports::Case>& results, const Options& options) {
+  std::vector<std::string> missing;
+  for (const auto& result : results)
+    for (const auto& run : result.runs)
+      if (run.status == "missing") missing.push_back(run.case_id + ": " + run.label());
+  if (missing.empty()) return;
+  constexpr std::size_t most = 10;
+  const std::size_t all = missing.size();
+  missing.resize(std::min(most, all));
+  throw InputError(fmt::format("{}: has no record, made by this build of the program, of {} runs{}:\n  {}",
+                               options.from.string(), all, all > most ? ", among them" : "", listed(missing, "\n  ")));
+}
+
 std::vector<reports::Case> measure_cases(const std::vector<Case>& cases, const Options& options, Purpose purpose,
                                          const std::atomic<bool>& cancelled) {
   const bool judge_only = purpose == Purpose::judge;
-  Running running{threads_of(options), &cancelled, options.books, options.fields, judge_only};
-  running.progress = progress();
+  Running running = running_for(options, purpose, cancelled);
   const auto keeping = keeping_of(options);
   running.keeping = keeping.get();
   Failed failed(cases);
@@ -73,6 +92,7 @@ std::vector<reports::Case> measure_cases(const std::vector<Case>& cases, const O
   }
   auto results = run_cases(cases, running);
   tell_kept(keeping.get());
+  require_all(results, options);
   for (std::size_t i = 0; i < cases.size(); ++i) {
     if (!options.only.empty()) continue;  // gates and figures speak of all runs
     for (std::size_t g = 0; g < cases[i].gates.size(); ++g) {
@@ -213,6 +233,7 @@ bool names_figure(const std::string& wanted, const std::string& id) {
 int run_command(const Options& options, const std::atomic<bool>& cancelled) {
   auto cases = select_cases(options.selectors);
   if (!options.only.empty()) keep_runs(cases, options.only);
+  if (!options.shard.empty()) return make_shard(cases, running_for(options, Purpose::show, cancelled), options);
   prepare(options.out);
   auto results = measure_cases(cases, options, Purpose::show, cancelled);
   for (auto& result : results) name_after_case(result);  // two cases may call their figures the same
@@ -233,6 +254,7 @@ int run_command(const Options& options, const std::atomic<bool>& cancelled) {
 int gate_command(const Options& options, const std::atomic<bool>& cancelled) {
   auto cases = select_cases(options.selectors);
   const auto left_out = options.quick ? leave_out_slow(cases) : std::vector<std::string>{};
+  if (!options.shard.empty()) return make_shard(cases, running_for(options, Purpose::judge, cancelled), options);
   const auto results = measure_cases(cases, options, Purpose::judge, cancelled);
   for (const auto& result : results) {
     for (const auto& gate : result.gates) print_gate(gate);

@@ -15,10 +15,14 @@ struct Options {
   std::vector<std::string> selectors;
   std::filesystem::path out = "out";
   std::filesystem::path json, junit;
-  std::filesystem::path store;  ///< where runs are kept; empty: "store" in `out`; "none": nowhere
-  bool fresh = false;           ///< make all runs anew, whatever the store has
-  bool all = false;             ///< store prune: all of it
-  int threads = 0;              ///< 0: all there are
+  std::filesystem::path store;            ///< where runs are kept; empty: "store" in `out`; "none": nowhere
+  std::filesystem::path from;             ///< gate: a store; what is not in it is not made
+  std::string shard;                      ///< run, gate: "2/3"; empty: all
+  bool dry_run = false;                   ///< with a shard: only tell
+  bool fresh = false;                     ///< make all runs anew, whatever the store has
+  std::vector<std::string> merged_cases;  ///< merge: whose runs; empty: of all cases
+  bool all = false;                       ///< store prune: all of it
+  int threads = 0;                        ///< 0: all there are
   bool quick = false;
   bool fail_fast = false;  ///< gate: no further runs for a gate that has failed
   bool declarations = false;
@@ -57,6 +61,7 @@ int stability_command(const Options&, const std::atomic<bool>& cancelled);
 int list_command(const Options&);
 int show_command(const Options&);
 int store_command(const Options&);
+int merge_command(const Options&);
 int paper_command(const Options&, const std::atomic<bool>& cancelled);
 int test_command(const Options&);
 std::string version_text();

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "runner/app/provenance.hpp"
+#include "runner/input/messages.hpp"
 
 namespace diptych::runner {
 namespace {
@@ -41,6 +42,11 @@ std::string build_of_this_program() {
 }
 
 std::unique_ptr<Keeping> keeping_of(const Options& options) {
+  if (!options.from.empty()) {
+    if (!std::filesystem::is_directory(options.from))
+      throw InputError(options.from.string() + ": is no folder; allowed: a store");
+    return std::unique_ptr<Keeping>(new Keeping{{options.from, build_of_this_program()}, false, true});
+  }
   if (options.store == "none") return nullptr;
   return std::unique_ptr<Keeping>(new Keeping{{store_of(options), build_of_this_program()}, options.fresh});
 }

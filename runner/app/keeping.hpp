@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "runner/app/commands.hpp"
 #include "runner/run/runner.hpp"
@@ -15,6 +16,13 @@ std::string build_of_this_program();
 
 /// The store that --store names; null for "none".
 std::unique_ptr<Keeping> keeping_of(const Options&);
+
+/// "2/3", as --shard has it. Throws InputError where it is none.
+Shard shard_of(const std::string&);
+
+/// Makes the runs of one shard and keeps them, or tells of them with --dry-run; judges and shows nothing. Returns the
+/// exit status.
+int make_shard(const std::vector<Case>&, Running, const Options&);
 
 /// What was taken from the store and what was kept there, on standard error; nothing where there was neither.
 void tell_kept(const Keeping*);

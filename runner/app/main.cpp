@@ -213,6 +213,26 @@ int main(int argc, char** argv) {
   list->add_flag("--declarations", options.declarations, "every key of scenes and gates, as in cases/gates.lock");
   list->callback([&] { status = list_command(options); });
 
+  const auto add_shard = [&](CLI::App* command) {
+    command->add_option(
+        "--shard", options.shard,
+        "2/3: only make and keep the second of three parts of the runs; which run is in which part does "
+        "not change when cases are added");
+    command->add_flag("--dry-run", options.dry_run, "with --shard: only tell which runs those are, and their cost");
+  };
+  add_shard(run);
+  add_shard(gate);
+  gate->add_option("--from", options.from, "judge what this store has, and make no run");
+
+  auto* merge = app.add_subcommand("merge", "bring the stores of several machines together");
+  merge->add_option("DIR", options.selectors, "stores; together they must have every run that gate needs")->required();
+  merge->add_option("--case", options.merged_cases, "of these cases, as gate has them; all without it")
+      ->allow_extra_args(false);
+  merge->add_option("--out", options.out, "the store to write")->required();
+  add_threads(merge);
+  merge->footer("Example: diptych merge part1 part2 part3 --out all, then diptych gate --from all");
+  merge->callback([&] { status = merge_command(options); });
+
   auto* store = app.add_subcommand("store", "what is kept of runs that were made");
   store->add_option(
       "WHAT", options.selectors,

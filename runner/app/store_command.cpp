@@ -9,6 +9,7 @@
 #include "runner/app/commands.hpp"
 #include "runner/app/keeping.hpp"
 #include "runner/input/messages.hpp"
+#include "runner/judge/gates.hpp"
 
 namespace diptych::runner {
 namespace {

@@ -16,6 +16,13 @@ namespace diptych::runner {
 /// How to run, as against what.
 struct Keeping;
 
+/// The number-th of `of` parts into which runs are divided, by what they see: which part a run is in does not change
+/// when cases are added.
+struct Shard {
+  int number = 1, of = 1;
+  bool has(const std::string& words) const;
+};
+
 struct Running {
   int threads = 1;                               ///< for all runs together
   const std::atomic<bool>* cancelled = nullptr;  ///< turns true where runs should stop soon
@@ -30,6 +37,7 @@ struct Running {
   std::function<void(std::size_t done, std::size_t total)> progress = {};  ///< after each run, likewise
   int threads_a_run = 1;                                                   ///< of plates; the same bits for any number
   std::optional<double> limit_seconds = {};  ///< run_cases stops a run that takes longer: status "timed out"
+  std::optional<Shard> shard = {};           ///< run_cases makes its part alone; the others have status "left out"
   Keeping* keeping = nullptr;                ///< where run_cases looks for runs that were made before; null: nowhere
 };
 

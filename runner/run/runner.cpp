@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -64,9 +65,10 @@ void share(std::vector<Task>& tasks, const Running& running) {
 /// comes out the same is what is asked.
 std::optional<reports::Run> run_made_before(const Task& task, const Running& running) {
   if (!running.keeping || running.keeping->fresh || running.limit_seconds) return {};
-  const bool bits = std::any_of(task.c->gates.begin(), task.c->gates.end(), [&](const GateSpec& gate) {
-    return gate.quantity.starts_with("bits.") && matches(gate.where, task.leaf);
-  });
+  const bool bits =
+      !running.keeping->only && std::any_of(task.c->gates.begin(), task.c->gates.end(), [&](const GateSpec& gate) {
+        return gate.quantity.starts_with("bits.") && matches(gate.where, task.leaf);
+      });
   if (bits) return {};
   auto run = running.keeping->store.find(task.words);
   if (run) ++running.keeping->found;
@@ -85,16 +87,8 @@ void keep_run(const Task& task, const reports::Run& run, Keeping& keeping) {
   }
 }
 
-}  // namespace
-
-int threads_within(int threads, std::size_t runs, int unknowns) {
-  constexpr int worth = 10'000;  // unknowns of a thread: with fewer the others wait for each other as long as they work
-  const std::size_t spare = static_cast<std::size_t>(threads) / std::max<std::size_t>(runs, 1);
-  return std::clamp(unknowns / worth, 1, std::max(1, static_cast<int>(spare)));
-}
-
-std::vector<reports::Case> run_cases(const std::vector<Case>& cases, const Running& running) {
-  std::vector<Task> tasks;
+/// Cases as they are told of, each with a run a leaf that is not made yet, and a task for each of these.
+std::vector<reports::Case> described(const std::vector<Case>& cases, const Running& running, std::vector<Task>& tasks) {
   std::vector<reports::Case> results;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const Case& c = cases[i];
@@ -116,26 +110,21 @@ std::vector<reports::Case> run_cases(const std::vector<Case>& cases, const Runni
     }
     results.push_back(std::move(result));
   }
+  return results;
+}
 
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                  static_cast<std::size_t>(running.threads));
-  const auto stopped = [&] { return running.cancelled && *running.cancelled; };
-  // One by one and in order, so that what comes first is begun first.
-  const auto for_each = [&](std::size_t count, auto&& act) {
-    std::atomic<std::size_t> next{0};
-    tbb::parallel_for(0, running.threads, [&](int) {
-      for (std::size_t k = next++; k < count && !stopped(); k = next++) act(k);
-    });
-  };
-  // Of each case as it stands and of each variant, which may have an exact solution of its own.
-  std::map<std::pair<std::size_t, std::string>, std::string> doubts;
-  std::vector<std::pair<const Case*, std::string*>> doubted;
-  for (const Task& task : tasks) {
-    const auto [doubt, is_new] = doubts.try_emplace({task.which, task.leaf.variant});
-    if (is_new) doubted.emplace_back(task.c.get(), &doubt->second);
-  }
-  for_each(doubted.size(), [&](std::size_t k) { *doubted[k].second = doubt_exact(*doubted[k].first); });
-  for_each(tasks.size(), [&](std::size_t t) {
+/// One by one and in order, so that what comes first is begun first.
+template <class Act>
+void for_each(std::size_t count, const Running& running, const Act& act) {
+  std::atomic<std::size_t> next{0};
+  tbb::parallel_for(0, running.threads, [&](int) {
+    for (std::size_t k = next++; k < count && !(running.cancelled && *running.cancelled); k = next++) act(k);
+  });
+}
+
+/// Finds what lies ahead of each task. Throws InputError where one may not be run.
+void look_ahead(std::vector<Task>& tasks, const std::vector<reports::Case>& results, const Running& running) {
+  for_each(tasks.size(), running, [&](std::size_t t) {
     Task& task = tasks[t];
     Outlook ahead;
     try {
@@ -149,8 +138,46 @@ std::vector<reports::Case> run_cases(const std::vector<Case>& cases, const Runni
   });
   for (const Task& task : tasks)
     if (!task.refused.empty()) throw InputError(task.refused);
-  const std::size_t total = tasks.size();
+}
+
+}  // namespace
+
+bool Shard::has(const std::string& words) const {
+  return hash_of(words) % static_cast<std::uint64_t>(of) == static_cast<std::uint64_t>(number - 1);
+}
+
+int threads_within(int threads, std::size_t runs, int unknowns) {
+  constexpr int worth = 10'000;  // unknowns of a thread: with fewer the others wait for each other as long as they work
+  const std::size_t spare = static_cast<std::size_t>(threads) / std::max<std::size_t>(runs, 1);
+  return std::clamp(unknowns / worth, 1, std::max(1, static_cast<int>(spare)));
+}
+
+std::vector<reports::Case> run_cases(const std::vector<Case>& cases, const Running& running) {
+  std::vector<Task> tasks;
+  std::vector<reports::Case> results = described(cases, running, tasks);
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(running.threads));
+  // Of each case as it stands and of each variant, which may have an exact solution of its own.
+  std::map<std::pair<std::size_t, std::string>, std::string> doubts;
+  std::vector<std::pair<const Case*, std::string*>> doubted;
+  for (const Task& task : tasks) {
+    const auto [doubt, is_new] = doubts.try_emplace({task.which, task.leaf.variant});
+    if (is_new) doubted.emplace_back(task.c.get(), &doubt->second);
+  }
+  for_each(doubted.size(), running, [&](std::size_t k) { *doubted[k].second = doubt_exact(*doubted[k].first); });
+  look_ahead(tasks, results, running);
   share(tasks, running);
+  if (running.shard) {
+    const auto of_others = [&](const Task& task) { return !running.shard->has(task.words); };
+    for (const Task& task : tasks) {
+      if (!of_others(task)) continue;
+      results[task.which].runs[task.slot].status = "left out";
+      for (const Task& other : task.same) results[other.which].runs[other.slot].status = "left out";
+    }
+    std::erase_if(tasks, of_others);
+  }
+  std::size_t total = 0;
+  for (const Task& task : tasks) total += 1 + task.same.size();
   std::stable_sort(tasks.begin(), tasks.end(), [&](const Task& a, const Task& b) {
     return running.cheapest_first ? a.work < b.work : a.work > b.work;
   });
@@ -159,7 +186,7 @@ std::vector<reports::Case> run_cases(const std::vector<Case>& cases, const Runni
   std::size_t done = 0;
   // Each run writes its own slot and has the same bits with any number of threads of its own, so neither their number
   // nor their order can touch a bit.
-  for_each(tasks.size(), [&](std::size_t t) {
+  for_each(tasks.size(), running, [&](std::size_t t) {
     const Task& task = tasks[t];
     reports::Run& run = results[task.which].runs[task.slot];
     const auto wanted = [&] {
@@ -171,6 +198,8 @@ std::vector<reports::Case> run_cases(const std::vector<Case>& cases, const Runni
     } else if (auto before = run_made_before(task, running)) {
       before->case_id = run.case_id;
       run = std::move(*before);
+    } else if (running.keeping && running.keeping->only) {
+      run.status = "missing";
     } else {
       try {
         Running one = running;
@@ -206,6 +235,20 @@ std::vector<reports::Case> run_cases(const std::vector<Case>& cases, const Runni
     hand_over(task, run);
   });
   return results;
+}
+
+std::vector<PlannedRun> plan_runs(const std::vector<Case>& cases, const Running& running) {
+  std::vector<Task> tasks;
+  const std::vector<reports::Case> results = described(cases, running, tasks);
+  look_ahead(tasks, results, running);
+  share(tasks, running);
+  std::vector<PlannedRun> planned;
+  for (const Task& task : tasks) {
+    if (running.shard && !running.shard->has(task.words)) continue;
+    const reports::Run& run = results[task.which].runs[task.slot];
+    planned.push_back({run.case_id, run.label(), task.words, task.work});
+  }
+  return planned;
 }
 
 }  // namespace diptych::runner

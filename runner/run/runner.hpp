@@ -19,6 +19,7 @@ namespace diptych::runner {
 struct Keeping {
   Store store;
   bool fresh = false;                       ///< make all of them anew
+  bool only = false;                        ///< make none: what is not there has status "missing"
   std::atomic<std::size_t> found{0};        ///< taken from the store
   std::atomic<std::size_t> kept{0};         ///< written to it
   std::mutex telling = {};                  ///< of the next
@@ -30,6 +31,17 @@ struct Keeping {
 /// status "cancelled"; finished ones stay. A case whose exact solution fails its own test has only runs that cannot be
 /// judged.
 std::vector<reports::Case> run_cases(const std::vector<Case>&, const Running&);
+
+/// A run that a command would make.
+struct PlannedRun {
+  std::string case_id, label;
+  std::string words;   ///< all that it can see, see words_of_run
+  double updates = 0;  ///< of unknowns, about
+};
+
+/// The runs that run_cases would make or take from a store, those of equal words once, in the order of the cases.
+/// Throws as it does.
+std::vector<PlannedRun> plan_runs(const std::vector<Case>&, const Running&);
 
 /// Threads within a run of so many unknowns, where there are fewer runs than threads: as many as the runs leave each
 /// other and as find enough to do.

@@ -120,6 +120,13 @@ void Store::keep(const std::string& words, const reports::Run& run) const {
                       fmt::format("{} {} {}\n", first_word_of_record, bytes.size(), digest_of(bytes)) + bytes);
 }
 
+void Store::copy(const fs::path& record) const {
+  std::ifstream in(record, std::ios::binary);
+  const std::string bytes(std::istreambuf_iterator<char>(in), {});
+  if (!in) throw std::runtime_error(record.string() + ": cannot be read");
+  reports::write_file(folder_ / record.parent_path().filename() / record.filename(), bytes);
+}
+
 std::vector<StoredRun> Store::records() const {
   std::vector<StoredRun> all;
   for_each_file(folder_, [&](const fs::directory_entry& entry) {
@@ -132,6 +139,7 @@ std::vector<StoredRun> Store::records() const {
     try {
       const Payload payload = read_record(entry.path());
       record.build = payload.build;
+      record.words = payload.words;
       record.case_id = payload.case_id;
       record.label = payload.label;
       if (digest_of(payload.build + '\n' + payload.words) != record.key)

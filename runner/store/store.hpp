@@ -16,6 +16,7 @@ struct StoredRun {
   std::filesystem::path file;
   std::string key;    ///< of its name
   std::string build;  ///< what made it
+  std::string words;  ///< all that its run could see
   std::string case_id, label;
   std::uintmax_t bytes = 0;
   std::string damage;  ///< why it is not believed; empty: it is whole
@@ -33,6 +34,9 @@ class Store {
   std::optional<reports::Run> find(const std::string& words) const;
   /// Throws std::runtime_error where it cannot be written, and leaves what was there.
   void keep(const std::string& words, const reports::Run&) const;
+
+  /// Takes a whole record of another store in, as it stands. Throws std::runtime_error where it cannot.
+  void copy(const std::filesystem::path& record) const;
 
   /// Every record that is there, sorted by file; those of other builds, and what is damaged, too.
   std::vector<StoredRun> records() const;

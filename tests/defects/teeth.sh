@@ -4,7 +4,7 @@
 set -uo pipefail
 program=$1 verdict=$2
 shift 2
-out=$("$program" gate --fail-fast -j 1 "$@" 2>&1)
+out=$("$program" gate --store none --fail-fast -j 1 "$@" 2>&1)
 status=$?
 survived=0
 for gate in "$@"; do

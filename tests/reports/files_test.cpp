@@ -173,7 +173,7 @@ BOOST_AUTO_TEST_CASE(impossible_places) {
 }
 
 BOOST_AUTO_TEST_CASE(jsonl_reads_back) {
-  const Provenance made_by{"1.0", "abc123", "g++ 12", "-O3", "CPU", "Linux", true};
+  const Provenance made_by{"1.0", "abc123", "g++ 12", "-O3", "GSL 2.7", "CPU", "Linux", true};
   const auto lines = parsed(results_jsonl({example()}, made_by));
   BOOST_TEST_REQUIRE(lines.size() == 6U);
   const auto& run = lines[0];
