@@ -63,6 +63,13 @@ class Temporary {
     if (::close(std::exchange(descriptor_, -1)) != 0) fail(target_, "close", errno);
     if (::rename(path_.c_str(), target_.c_str()) != 0) fail(target_, "rename into place", errno);
     path_.clear();
+    // Its new name is on the disk once its folder is; some file systems know of no such thing.
+    const fs::path folder = target_.has_parent_path() ? target_.parent_path() : ".";
+    const int place = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (place >= 0) {
+      ::fsync(place);
+      ::close(place);
+    }
   }
 
  private:

@@ -238,7 +238,7 @@ if [ "$(strip one.jsonl | md5sum)" != "$(strip two.jsonl | md5sum)" ]; then
   echo "one thread and two give different results"
   failures=$((failures + 1))
 fi
-expect 12 'No such file|Not a directory|cannot' "$program" gate bar.energy --json /dev/null/x/y.jsonl
+expect 14 'No such file|Not a directory|cannot' "$program" gate bar.energy --json /dev/null/x/y.jsonl
 expect 12 'space|full|cannot' "$program" gate bar.energy --json /dev/full
 expect 0 '<testcase' sh -c "'$program' gate bar.energy --junit j.xml >/dev/null 2>&1 && cat j.xml"
 

@@ -49,12 +49,12 @@ int bench_command(const Options& options, const std::atomic<bool>& cancelled) {
   }
   if (!options.json.empty()) prepare(options.json.parent_path().empty() ? "." : options.json.parent_path());
   const std::vector<reports::BenchRow> rows = bench(plan, &cancelled, progress());
-  fmt::print("{}", reports::bench_text(rows));
+  say("{}", reports::bench_text(rows));
   for (const BenchScene& scene : bench_scenes()) {
     const bool shown = std::any_of(rows.begin(), rows.end(), [&](const auto& row) { return row.scene == scene.id; });
     if (shown || !contains(plan.scenes, scene.id)) continue;
-    fmt::print(stderr, "{}: no row; {}\n", scene.id,
-               scene.bars ? "bars run on one thread (--threads 1)" : "no asked method has particles");
+    tell("{}: no row; {}\n", scene.id,
+         scene.bars ? "bars run on one thread (--threads 1)" : "no asked method has particles");
   }
   if (!options.json.empty()) reports::write_file(options.json, reports::bench_json(rows, provenance()));
   return cancelled ? unstable_or_error : all_passed;

@@ -114,7 +114,7 @@ void print_gate(const reports::Gate& gate) {
     const bool to_the_bit = std::all_of(gate.checks.begin(), gate.checks.end(), bits);
     margin = to_the_bit ? "exactly" : fmt::format("{:4.0f} % headroom", 100 * gate.headroom());
   }
-  fmt::print("{:8} {}/{}  {}  {}\n", to_string(gate.verdict), gate.case_id, gate.id, gate.formula, margin);
+  say("{:8} {}/{}  {}  {}\n", to_string(gate.verdict), gate.case_id, gate.id, gate.formula, margin);
 }
 
 /// Prints the verdict's last line and returns the exit status.
@@ -129,14 +129,14 @@ int finish(const std::vector<Case>& cases, const std::vector<reports::Case>& res
   }
   const auto differences = differences_from_lock(cases, whole);
   if (!differences.empty()) {
-    fmt::print("\nThe gates are not those of cases/gates.lock:\n");
-    for (const auto& line : differences) fmt::print("  {}\n", line);
-    fmt::print("If that is meant: ./diptych list --declarations > cases/gates.lock\n");
+    say("\nThe gates are not those of cases/gates.lock:\n");
+    for (const auto& line : differences) say("  {}\n", line);
+    say("If that is meant: ./diptych list --declarations > cases/gates.lock\n");
     outcome.exit_code = invalid;
     outcome.verdict = "INVALID";
   }
-  fmt::print("DIPTYCH-VERDICT {} gates={}/{} passed={} left_out={}\n", outcome.verdict, outcome.judged,
-             outcome.declared, outcome.passed, outcome.left_out);
+  say("DIPTYCH-VERDICT {} gates={}/{} passed={} left_out={}\n", outcome.verdict, outcome.judged, outcome.declared,
+      outcome.passed, outcome.left_out);
   return outcome.exit_code;
 }
 
@@ -153,7 +153,21 @@ std::vector<std::string> leave_out_slow(std::vector<Case>& cases) {
   return left_out;
 }
 
+bool was_cancelled(const reports::Case& result) {
+  return std::any_of(result.runs.begin(), result.runs.end(),
+                     [](const reports::Run& run) { return run.status == "cancelled"; });
+}
+
+/// What was stopped does not take the place of what was finished before.
+void write_results(const std::vector<reports::Case>& results, const std::filesystem::path& file, bool stopped) {
+  if (stopped && std::filesystem::exists(file))
+    tell("{} stays as it was\n", file.string());
+  else
+    reports::write_file(file, reports::results_jsonl(results, provenance()));
+}
+
 void write_tables(const reports::Case& result, const std::filesystem::path& directory) {
+  if (was_cancelled(result) && std::filesystem::exists(directory / (result.id + ".txt"))) return;
   reports::write_file(directory / (result.id + ".txt"), reports::text_table(result));
   reports::write_file(directory / (result.id + ".csv"), reports::csv_table(result));
   reports::write_file(directory / (result.id + ".tex"), reports::latex_table(result));
@@ -165,7 +179,7 @@ void write_ledgers(const reports::Case& result, const std::filesystem::path& dir
     std::replace(name.begin(), name.end(), ' ', '_');
     reports::write_file(directory / (name + ".csv"), reports::ledger_csv(run));
   }
-  fmt::print("{}\n", directory.string());
+  say("{}\n", directory.string());
 }
 
 /// Of a plate's run one collection for each kind of points (mesh or particles, and cells), of a bar's one table.
@@ -184,13 +198,13 @@ void write_fields(const reports::Case& result, const std::filesystem::path& dire
     for (const auto& [kind, steps] : collections) {
       const auto path = directory / fmt::format("{}.{}.pvd", name, kind);
       reports::write_pvd(path, steps);
-      fmt::print("{}\n", path.string());
+      say("{}\n", path.string());
     }
     if (run.samples.empty()) continue;
     for (const auto& points : run.samples.front().bar_points) {
       const auto path = directory / fmt::format("{}.{}.csv", name, points.kind);
       reports::write_file(path, reports::bar_fields_csv(result, run, points.kind));
-      fmt::print("{}\n", path.string());
+      say("{}\n", path.string());
     }
   }
 }
@@ -203,7 +217,7 @@ bool any_cancelled(const std::vector<reports::Case>& results) {
       done += run.status != "cancelled";
     }
   }
-  if (done < total) fmt::print(stderr, "stopped on request: {} of {} runs were finished and are kept\n", done, total);
+  if (done < total) tell("stopped on request: {} of {} runs were finished and are kept\n", done, total);
   return done < total;
 }
 
@@ -214,8 +228,7 @@ bool all_completed(const std::vector<Case>& cases, const std::vector<reports::Ca
       const bool meant = cases[i].allow_unstable && run.status == "unstable";
       if ((run.status == "completed" && run.invalid.empty()) || meant) continue;
       good = false;
-      fmt::print(stderr, "{}: {}: {} {}\n", run.case_id, run.label(), run.status,
-                 run.invalid.empty() ? run.message : run.invalid);
+      tell("{}: {}: {} {}\n", run.case_id, run.label(), run.status, run.invalid.empty() ? run.message : run.invalid);
     }
   }
   return good;
@@ -237,17 +250,18 @@ int run_command(const Options& options, const std::atomic<bool>& cancelled) {
   prepare(options.out);
   auto results = measure_cases(cases, options, Purpose::show, cancelled);
   for (auto& result : results) name_after_case(result);  // two cases may call their figures the same
+  const bool stopped = any_cancelled(results);
+  // Results before tables, tables before pictures: what comes first is there whatever happens to the rest.
+  write_results(results, options.out / "results.jsonl", stopped);
+  for (const auto& result : results) write_tables(result, options.out / "tables");
   for (const auto& result : results) {
-    fmt::print("{}\n", reports::text_table(result));
-    write_tables(result, options.out / "tables");
-    fmt::print("{}\n", (options.out / "tables" / (result.id + ".{txt,csv,tex}")).string());
+    say("{}\n", reports::text_table(result));
+    say("{}\n", (options.out / "tables" / (result.id + ".{txt,csv,tex}")).string());
     if (options.fields) write_fields(result, options.out / "fields" / result.id);
     if (options.books == Books::lines) write_ledgers(result, options.out / "ledgers" / result.id);
   }
   const int undrawn = draw_figures(results, options.out / "figures", {});
-  reports::write_file(options.out / "results.jsonl", reports::results_jsonl(results, provenance()));
-  fmt::print("{}\n", (options.out / "results.jsonl").string());
-  const bool stopped = any_cancelled(results);
+  say("{}\n", (options.out / "results.jsonl").string());
   return all_completed(cases, results) && !stopped && undrawn == 0 ? all_passed : unstable_or_error;
 }
 
@@ -255,13 +269,17 @@ int gate_command(const Options& options, const std::atomic<bool>& cancelled) {
   auto cases = select_cases(options.selectors);
   const auto left_out = options.quick ? leave_out_slow(cases) : std::vector<std::string>{};
   if (!options.shard.empty()) return make_shard(cases, running_for(options, Purpose::judge, cancelled), options);
+  prepare_file("--json", options.json, cases);
+  prepare_file("--junit", options.junit, cases);
+  if (!options.json.empty() && options.json.lexically_normal() == options.junit.lexically_normal())
+    throw InputError("--junit: found " + words(options.junit.string()) + ", as --json is; allowed: a file of its own");
   const auto results = measure_cases(cases, options, Purpose::judge, cancelled);
+  if (!options.json.empty()) reports::write_file(options.json, reports::results_jsonl(results, provenance()));
+  if (!options.junit.empty()) reports::write_file(options.junit, reports::junit_xml(results));
   for (const auto& result : results) {
     for (const auto& gate : result.gates) print_gate(gate);
   }
-  if (!options.json.empty()) reports::write_file(options.json, reports::results_jsonl(results, provenance()));
-  if (!options.junit.empty()) reports::write_file(options.junit, reports::junit_xml(results));
-  for (const std::string& gate : left_out) fmt::print("{:8} {}  slow\n", "LEFT OUT", gate);
+  for (const std::string& gate : left_out) say("{:8} {}  slow\n", "LEFT OUT", gate);
   const bool stopped = any_cancelled(results);
   return finish(cases, results, static_cast<int>(left_out.size()), options.selectors.empty() && !options.quick,
                 stopped);
@@ -271,7 +289,7 @@ int explain_command(const Options& options, const std::atomic<bool>& cancelled) 
   const auto cases = select_cases(options.selectors);
   const auto results = measure_cases(cases, options, Purpose::judge, cancelled);
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    for (const auto& gate : results[i].gates) fmt::print("{}\n", explanation(cases[i], gate));
+    for (const auto& gate : results[i].gates) say("{}\n", explanation(cases[i], gate));
   }
   int declared = 0;
   for (const Case& c : cases) declared += static_cast<int>(c.gates.size());
@@ -281,14 +299,14 @@ int explain_command(const Options& options, const std::atomic<bool>& cancelled) 
 int list_command(const Options& options) {
   const auto cases = select_cases(options.selectors);
   if (options.declarations) {
-    fmt::print("{}", declarations(cases));
+    say("{}", declarations(cases));
     return all_passed;
   }
   for (const Case& c : cases) {
-    fmt::print("{}  {}{}\n", c.id, c.title,
-               c.paper_figures.empty() ? "" : fmt::format("  [paper: Fig. {}]", listed(c.paper_figures)));
+    say("{}  {}{}\n", c.id, c.title,
+        c.paper_figures.empty() ? "" : fmt::format("  [paper: Fig. {}]", listed(c.paper_figures)));
     for (const GateSpec& gate : c.gates)
-      fmt::print("    {:24} {:10} {}{}\n", gate.id, gate.kind, gate.quantity, gate.slow ? "  (slow)" : "");
+      say("    {:24} {:10} {}{}\n", gate.id, gate.kind, gate.quantity, gate.slow ? "  (slow)" : "");
   }
   return all_passed;
 }
@@ -326,14 +344,13 @@ int paper_command(const Options& options, const std::atomic<bool>& cancelled) {
   prepare(out);
   const auto results = measure_cases(cases, options, Purpose::show, cancelled);
   const bool stopped = any_cancelled(results);
+  write_results(results, out / "results.jsonl", stopped);
   for (const auto& result : results) write_tables(result, out / "tables");
   const int undrawn = draw_figures(results, out / "figures", wanted);
   for (const auto& result : results) {
-    for (const char* ending : {".txt", ".csv", ".tex"})
-      fmt::print("{}\n", (out / "tables" / (result.id + ending)).string());
+    for (const char* ending : {".txt", ".csv", ".tex"}) say("{}\n", (out / "tables" / (result.id + ending)).string());
   }
-  reports::write_file(out / "results.jsonl", reports::results_jsonl(results, provenance()));
-  fmt::print("{}\n", (out / "results.jsonl").string());
+  say("{}\n", (out / "results.jsonl").string());
   for (const auto& result : results) {
     for (const auto& gate : result.gates) print_gate(gate);
   }
@@ -359,13 +376,13 @@ int test_command(const Options& options) {
   }
   const auto has = [&](const char* part) { return contains(chosen, part); };
   if (options.targets) {
-    fmt::print("{}\n", has("unit") && has("teeth") ? "unit_tests planted"
-                       : has("unit")               ? "unit_tests"
-                       : has("teeth")              ? "planted"
-                                                   : "");
+    say("{}\n", has("unit") && has("teeth") ? "unit_tests planted"
+                : has("unit")               ? "unit_tests"
+                : has("teeth")              ? "planted"
+                                            : "");
     return all_passed;
   }
-  if (options.quick) fmt::print("LEFT OUT  planted defects, and the gates that are marked slow\n");
+  if (options.quick) say("LEFT OUT  planted defects, and the gates that are marked slow\n");
   std::vector<std::string> words{"ctest",
                                  "--test-dir",
                                  build_directory().string(),

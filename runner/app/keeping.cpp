@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "runner/app/provenance.hpp"
+#include "runner/app/showing.hpp"
 #include "runner/input/messages.hpp"
 
 namespace diptych::runner {
@@ -55,10 +56,8 @@ void tell_kept(const Keeping* keeping) {
   if (!keeping) return;
   const std::string folder = keeping->store.folder().string();
   if (keeping->found > 0)
-    fmt::print(stderr, "{} runs were made before and are taken from {} (--fresh makes them anew)\n",
-               keeping->found.load(), folder);
-  if (keeping->trouble)
-    fmt::print(stderr, "not all runs could be kept, which this command does not need: {}\n", *keeping->trouble);
+    tell("{} runs were made before and are taken from {} (--fresh makes them anew)\n", keeping->found.load(), folder);
+  if (keeping->trouble) tell("not all runs could be kept, which this command does not need: {}\n", *keeping->trouble);
 }
 
 }  // namespace diptych::runner

@@ -29,6 +29,8 @@ int main(int argc, char** argv) {
   using namespace diptych::runner;
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
+  std::signal(SIGHUP, on_signal);
+  std::signal(SIGPIPE, SIG_IGN);  // a reader that goes away is no reason to lose what was to be written elsewhere
 
   CLI::App app{"Diptych: FEM and MPM side by side, judged against exact solutions and against each other"};
   app.name("diptych");

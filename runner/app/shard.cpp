@@ -33,10 +33,10 @@ int tell_shard(const std::vector<PlannedRun>& planned, const Keeping& keeping) {
     there += found;
     all += run.updates;
     if (found) kept += run.updates;
-    fmt::print("{:7} {:40} {:44} {:9.2g} updates\n", found ? "kept" : "to make", run.case_id, run.label, run.updates);
+    say("{:7} {:40} {:44} {:9.2g} updates\n", found ? "kept" : "to make", run.case_id, run.label, run.updates);
   }
-  fmt::print("{} runs, {} of them kept in {}; to make: {:.2g} of {:.2g} updates\n", planned.size(), there,
-             keeping.store.folder().string(), all - kept, all);
+  say("{} runs, {} of them kept in {}; to make: {:.2g} of {:.2g} updates\n", planned.size(), there,
+      keeping.store.folder().string(), all - kept, all);
   return all_passed;
 }
 
@@ -78,11 +78,11 @@ int make_shard(const std::vector<Case>& cases, Running running, const Options& o
     for (const reports::Run& run : result.runs) {
       if (run.status == "left out" || run.status == "completed" || run.status == "unstable") continue;
       all = false;
-      fmt::print(stderr, "{}: {}: {} {}\n", run.case_id, run.label(), run.status, run.message);
+      tell("{}: {}: {} {}\n", run.case_id, run.label(), run.status, run.message);
     }
   }
-  fmt::print("shard {}: {} runs made and kept in {}, {} were there\n", options.shard, keeping->kept.load(),
-             keeping->store.folder().string(), keeping->found.load());
+  say("shard {}: {} runs made and kept in {}, {} were there\n", options.shard, keeping->kept.load(),
+      keeping->store.folder().string(), keeping->found.load());
   if (keeping->trouble) throw InputError("a run could not be kept: " + *keeping->trouble);
   return all ? all_passed : unstable_or_error;
 }
@@ -127,13 +127,13 @@ int merge_command(const Options& options) {
   if (!lacking.empty())
     wrong.push_back(some_of(fmt::format("{} of {} runs are lacking:", lacking.size(), needed.size()), lacking));
   if (!wrong.empty()) {
-    for (const std::string& one : wrong) fmt::print(stderr, "{}\n", one);
-    fmt::print(stderr, "not merged; nothing was written\n");
+    for (const std::string& one : wrong) tell("{}\n", one);
+    tell("not merged; nothing was written\n");
     return invalid;
   }
   const Store into(options.out, "");
   for (const auto& [run, file] : of_words) into.copy(file);
-  fmt::print("{}: {} runs of {} stores\n", options.out.string(), of_words.size(), options.selectors.size());
+  say("{}: {} runs of {} stores\n", options.out.string(), of_words.size(), options.selectors.size());
   return all_passed;
 }
 

@@ -29,17 +29,31 @@ std::function<void(std::size_t, std::size_t)> progress() {
     };
   }
   return [](std::size_t done, std::size_t total) {
-    if (done == total || done * 4 / total != (done - 1) * 4 / total) fmt::print(stderr, "{} of {} runs\n", done, total);
+    if (done == total || done * 4 / total != (done - 1) * 4 / total) tell("{} of {} runs\n", done, total);
   };
 }
 
-void prepare(const std::filesystem::path& out) {
+void prepare(const std::filesystem::path& out, const std::string& option) {
   std::error_code problem;
   std::filesystem::create_directories(out, problem);
   if (problem || access(out.c_str(), W_OK) != 0) {
-    throw InputError(fmt::format("--out: cannot write to {}: {}", out.string(),
+    throw InputError(fmt::format("{}: cannot write to {}: {}", option, out.string(),
                                  problem ? problem.message() : "permission denied or read-only"));
   }
+}
+
+void prepare_file(const std::string& option, const std::filesystem::path& file, const std::vector<Case>& cases) {
+  if (file.empty()) return;
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(fmt::format("{}: found {}, {}; allowed: a file for results", option, file.string(), what));
+  };
+  std::error_code none;
+  if (std::filesystem::is_directory(file, none)) refuse("which is a folder");
+  for (const Case& c : cases)
+    if (std::filesystem::equivalent(file, c.path, none)) refuse("which is the case itself");
+  if (file.extension() == ".toml" && std::filesystem::exists(file, none)) refuse("which may be a case");
+  if (!file.has_filename()) refuse("which is no name of a file");
+  if (file.has_parent_path()) prepare(file.parent_path(), option);
 }
 
 int draw_figures(const std::vector<reports::Case>& results, const std::filesystem::path& directory,
@@ -53,13 +67,13 @@ int draw_figures(const std::vector<reports::Case>& results, const std::filesyste
       std::string message;
       const reports::Drawn drawn = reports::draw(figure, directory, message);
       if (drawn == reports::Drawn::yes) {
-        fmt::print("{}\n", (directory / (figure.id + ".svg")).string());
+        say("{}\n", (directory / (figure.id + ".svg")).string());
         continue;
       }
       missing = missing || drawn == reports::Drawn::gnuplot_missing;
       undrawn += drawn == reports::Drawn::gnuplot_failed;
-      fmt::print("{}  (script and data only)\n", (directory / (figure.id + ".gp")).string());
-      if (drawn == reports::Drawn::gnuplot_failed) fmt::print(stderr, "gnuplot failed on {}: {}\n", figure.id, message);
+      say("{}  (script and data only)\n", (directory / (figure.id + ".gp")).string());
+      if (drawn == reports::Drawn::gnuplot_failed) tell("gnuplot failed on {}: {}\n", figure.id, message);
     }
   };
   for (const auto& result : results) {
@@ -70,11 +84,10 @@ int draw_figures(const std::vector<reports::Case>& results, const std::filesyste
       if (!wanted.empty() && !wanted.count(name)) continue;
       const auto path = directory / (name + ".html");
       reports::write_page(page, path);
-      fmt::print("{}\n", path.string());
+      say("{}\n", path.string());
     }
   }
-  if (missing)
-    fmt::print(stderr, "gnuplot is not installed: no pictures, all else is complete (apt-get install gnuplot-nox)\n");
+  if (missing) tell("gnuplot is not installed: no pictures, all else is complete (apt-get install gnuplot-nox)\n");
   return undrawn;
 }
 

@@ -41,7 +41,8 @@ struct Task {
   std::shared_ptr<const Case> c;  ///< as the leaf has it
   TimeStep step{};
   double work = 0;           ///< about as many updates of unknowns
-  std::string refused = {};  ///< why it may not be run
+  std::string refused = {};  ///< why it may not be run, nor any other
+  std::string broken = {};   ///< why it alone cannot be
   std::string words = {};    ///< all that its run can see
   std::vector<Task> same{};  ///< of other cases, which get its results, too
 };
@@ -132,6 +133,8 @@ void look_ahead(std::vector<Task>& tasks, const std::vector<reports::Case>& resu
       refuse_unstable(*task.c, task.leaf, ahead);
     } catch (const InputError& problem) {
       task.refused = problem.what();
+    } catch (const std::exception& problem) {
+      task.broken = problem.what();
     }
     task.step = ahead.step;
     task.work = ahead.updates(results[task.which].runs[task.slot].unknowns);
@@ -164,7 +167,13 @@ std::vector<reports::Case> run_cases(const std::vector<Case>& cases, const Runni
     const auto [doubt, is_new] = doubts.try_emplace({task.which, task.leaf.variant});
     if (is_new) doubted.emplace_back(task.c.get(), &doubt->second);
   }
-  for_each(doubted.size(), running, [&](std::size_t k) { *doubted[k].second = doubt_exact(*doubted[k].first); });
+  for_each(doubted.size(), running, [&](std::size_t k) {
+    try {
+      *doubted[k].second = doubt_exact(*doubted[k].first);
+    } catch (const std::exception& problem) {  // its own case's trouble, and no other's
+      *doubted[k].second = std::string("the exact solution's own test came to no end: ") + problem.what();
+    }
+  });
   look_ahead(tasks, results, running);
   share(tasks, running);
   if (running.shard) {
@@ -193,7 +202,10 @@ std::vector<reports::Case> run_cases(const std::vector<Case>& cases, const Runni
       const std::lock_guard<std::mutex> lock(telling);
       return !running.wanted || running.wanted(task.which, task.leaf);
     };
-    if (!wanted()) {
+    if (!task.broken.empty()) {
+      run.status = "error";
+      run.message = task.broken;
+    } else if (!wanted()) {
       run.status = "left out";
     } else if (auto before = run_made_before(task, running)) {
       before->case_id = run.case_id;
