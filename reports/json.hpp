@@ -41,14 +41,9 @@ class Numbers {
 };
 
 inline Json env_of(const Provenance& made_by) {
-  return {{"version", made_by.version},
-          {"commit", made_by.commit},
-          {"dirty", made_by.dirty},
-          {"compiler", made_by.compiler},
-          {"flags", made_by.flags},
-          {"libraries", made_by.libraries},
-          {"cpu", made_by.cpu},
-          {"os", made_by.os}};
+  return {{"version", made_by.version},   {"commit", made_by.commit}, {"dirty", made_by.dirty},
+          {"compiler", made_by.compiler}, {"flags", made_by.flags},   {"libraries", made_by.libraries},
+          {"cpu", made_by.cpu},           {"os", made_by.os}};
 }
 
 /// Text from outside (a path, a compiler's message) need not be UTF-8: it is replaced rather than the line lost.

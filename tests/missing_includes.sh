@@ -27,8 +27,8 @@ csignal: signal
 condition_variable: condition_variable condition_variable_any
 cstddef: max_align_t nullptr_t ptrdiff_t
 cstddef cstdio cstdlib cstring string vector array: size_t
-cstdint: int32_t int64_t uint16_t uint32_t uint64_t uint8_t
-cstdio: ferror fflush fprintf fputs perror remove rename
+cstdint: int32_t int64_t uint16_t uint32_t uint64_t uint8_t uintmax_t
+cstdio: ferror fflush fprintf fputs fwrite perror remove rename
 cstdlib: abort exit getenv strtod
 cstring: memcmp memcpy strcmp strerror strlen
 deque: deque

@@ -29,11 +29,11 @@ int ablate_command(const Options& options, const std::atomic<bool>& cancelled) {
   running.keeping = keeping.get();
   const reports::AblationStudy study = ablate(c, plan, running);
   tell_kept(keeping.get());
-  say("{}", reports::ablation_text(study));
+  print("{}", reports::ablation_text(study));
   const auto folder = options.out / "ablate";
   reports::write_file(folder / (study.case_id + ".csv"), reports::ablation_csv(study));
   reports::write_file(folder / (study.case_id + ".json"), reports::ablation_json(study, provenance()));
-  say("{}\n", (folder / (study.case_id + ".{csv,json}")).string());
+  print("{}\n", (folder / (study.case_id + ".{csv,json}")).string());
   const bool stopped = std::any_of(study.tried.begin(), study.tried.end(), [](const reports::Ablation& one) {
     return one.stands.status == "cancelled" || one.status == "cancelled";
   });

@@ -49,7 +49,7 @@ int bench_command(const Options& options, const std::atomic<bool>& cancelled) {
   }
   if (!options.json.empty()) prepare(options.json.parent_path().empty() ? "." : options.json.parent_path());
   const std::vector<reports::BenchRow> rows = bench(plan, &cancelled, progress());
-  say("{}", reports::bench_text(rows));
+  print("{}", reports::bench_text(rows));
   for (const BenchScene& scene : bench_scenes()) {
     const bool shown = std::any_of(rows.begin(), rows.end(), [&](const auto& row) { return row.scene == scene.id; });
     if (shown || !contains(plan.scenes, scene.id)) continue;

@@ -114,7 +114,7 @@ void print_gate(const reports::Gate& gate) {
     const bool to_the_bit = std::all_of(gate.checks.begin(), gate.checks.end(), bits);
     margin = to_the_bit ? "exactly" : fmt::format("{:4.0f} % headroom", 100 * gate.headroom());
   }
-  say("{:8} {}/{}  {}  {}\n", to_string(gate.verdict), gate.case_id, gate.id, gate.formula, margin);
+  print("{:8} {}/{}  {}  {}\n", to_string(gate.verdict), gate.case_id, gate.id, gate.formula, margin);
 }
 
 /// Prints the verdict's last line and returns the exit status.
@@ -129,14 +129,14 @@ int finish(const std::vector<Case>& cases, const std::vector<reports::Case>& res
   }
   const auto differences = differences_from_lock(cases, whole);
   if (!differences.empty()) {
-    say("\nThe gates are not those of cases/gates.lock:\n");
-    for (const auto& line : differences) say("  {}\n", line);
-    say("If that is meant: ./diptych list --declarations > cases/gates.lock\n");
+    print("\nThe gates are not those of cases/gates.lock:\n");
+    for (const auto& line : differences) print("  {}\n", line);
+    print("If that is meant: ./diptych list --declarations > cases/gates.lock\n");
     outcome.exit_code = invalid;
     outcome.verdict = "INVALID";
   }
-  say("DIPTYCH-VERDICT {} gates={}/{} passed={} left_out={}\n", outcome.verdict, outcome.judged, outcome.declared,
-      outcome.passed, outcome.left_out);
+  print("DIPTYCH-VERDICT {} gates={}/{} passed={} left_out={}\n", outcome.verdict, outcome.judged, outcome.declared,
+        outcome.passed, outcome.left_out);
   return outcome.exit_code;
 }
 
@@ -179,7 +179,7 @@ void write_ledgers(const reports::Case& result, const std::filesystem::path& dir
     std::replace(name.begin(), name.end(), ' ', '_');
     reports::write_file(directory / (name + ".csv"), reports::ledger_csv(run));
   }
-  say("{}\n", directory.string());
+  print("{}\n", directory.string());
 }
 
 /// Of a plate's run one collection for each kind of points (mesh or particles, and cells), of a bar's one table.
@@ -198,13 +198,13 @@ void write_fields(const reports::Case& result, const std::filesystem::path& dire
     for (const auto& [kind, steps] : collections) {
       const auto path = directory / fmt::format("{}.{}.pvd", name, kind);
       reports::write_pvd(path, steps);
-      say("{}\n", path.string());
+      print("{}\n", path.string());
     }
     if (run.samples.empty()) continue;
     for (const auto& points : run.samples.front().bar_points) {
       const auto path = directory / fmt::format("{}.{}.csv", name, points.kind);
       reports::write_file(path, reports::bar_fields_csv(result, run, points.kind));
-      say("{}\n", path.string());
+      print("{}\n", path.string());
     }
   }
 }
@@ -255,13 +255,13 @@ int run_command(const Options& options, const std::atomic<bool>& cancelled) {
   write_results(results, options.out / "results.jsonl", stopped);
   for (const auto& result : results) write_tables(result, options.out / "tables");
   for (const auto& result : results) {
-    say("{}\n", reports::text_table(result));
-    say("{}\n", (options.out / "tables" / (result.id + ".{txt,csv,tex}")).string());
+    print("{}\n", reports::text_table(result));
+    print("{}\n", (options.out / "tables" / (result.id + ".{txt,csv,tex}")).string());
     if (options.fields) write_fields(result, options.out / "fields" / result.id);
     if (options.books == Books::lines) write_ledgers(result, options.out / "ledgers" / result.id);
   }
   const int undrawn = draw_figures(results, options.out / "figures", {});
-  say("{}\n", (options.out / "results.jsonl").string());
+  print("{}\n", (options.out / "results.jsonl").string());
   return all_completed(cases, results) && !stopped && undrawn == 0 ? all_passed : unstable_or_error;
 }
 
@@ -279,7 +279,7 @@ int gate_command(const Options& options, const std::atomic<bool>& cancelled) {
   for (const auto& result : results) {
     for (const auto& gate : result.gates) print_gate(gate);
   }
-  for (const std::string& gate : left_out) say("{:8} {}  slow\n", "LEFT OUT", gate);
+  for (const std::string& gate : left_out) print("{:8} {}  slow\n", "LEFT OUT", gate);
   const bool stopped = any_cancelled(results);
   return finish(cases, results, static_cast<int>(left_out.size()), options.selectors.empty() && !options.quick,
                 stopped);
@@ -289,7 +289,7 @@ int explain_command(const Options& options, const std::atomic<bool>& cancelled) 
   const auto cases = select_cases(options.selectors);
   const auto results = measure_cases(cases, options, Purpose::judge, cancelled);
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    for (const auto& gate : results[i].gates) say("{}\n", explanation(cases[i], gate));
+    for (const auto& gate : results[i].gates) print("{}\n", explanation(cases[i], gate));
   }
   int declared = 0;
   for (const Case& c : cases) declared += static_cast<int>(c.gates.size());
@@ -299,14 +299,14 @@ int explain_command(const Options& options, const std::atomic<bool>& cancelled) 
 int list_command(const Options& options) {
   const auto cases = select_cases(options.selectors);
   if (options.declarations) {
-    say("{}", declarations(cases));
+    print("{}", declarations(cases));
     return all_passed;
   }
   for (const Case& c : cases) {
-    say("{}  {}{}\n", c.id, c.title,
-        c.paper_figures.empty() ? "" : fmt::format("  [paper: Fig. {}]", listed(c.paper_figures)));
+    print("{}  {}{}\n", c.id, c.title,
+          c.paper_figures.empty() ? "" : fmt::format("  [paper: Fig. {}]", listed(c.paper_figures)));
     for (const GateSpec& gate : c.gates)
-      say("    {:24} {:10} {}{}\n", gate.id, gate.kind, gate.quantity, gate.slow ? "  (slow)" : "");
+      print("    {:24} {:10} {}{}\n", gate.id, gate.kind, gate.quantity, gate.slow ? "  (slow)" : "");
   }
   return all_passed;
 }
@@ -348,9 +348,9 @@ int paper_command(const Options& options, const std::atomic<bool>& cancelled) {
   for (const auto& result : results) write_tables(result, out / "tables");
   const int undrawn = draw_figures(results, out / "figures", wanted);
   for (const auto& result : results) {
-    for (const char* ending : {".txt", ".csv", ".tex"}) say("{}\n", (out / "tables" / (result.id + ending)).string());
+    for (const char* ending : {".txt", ".csv", ".tex"}) print("{}\n", (out / "tables" / (result.id + ending)).string());
   }
-  say("{}\n", (out / "results.jsonl").string());
+  print("{}\n", (out / "results.jsonl").string());
   for (const auto& result : results) {
     for (const auto& gate : result.gates) print_gate(gate);
   }
@@ -376,13 +376,13 @@ int test_command(const Options& options) {
   }
   const auto has = [&](const char* part) { return contains(chosen, part); };
   if (options.targets) {
-    say("{}\n", has("unit") && has("teeth") ? "unit_tests planted"
-                : has("unit")               ? "unit_tests"
-                : has("teeth")              ? "planted"
-                                            : "");
+    print("{}\n", has("unit") && has("teeth") ? "unit_tests planted"
+                  : has("unit")               ? "unit_tests"
+                  : has("teeth")              ? "planted"
+                                              : "");
     return all_passed;
   }
-  if (options.quick) say("LEFT OUT  planted defects, and the gates that are marked slow\n");
+  if (options.quick) print("LEFT OUT  planted defects, and the gates that are marked slow\n");
   std::vector<std::string> words{"ctest",
                                  "--test-dir",
                                  build_directory().string(),

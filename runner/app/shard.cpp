@@ -33,10 +33,10 @@ int tell_shard(const std::vector<PlannedRun>& planned, const Keeping& keeping) {
     there += found;
     all += run.updates;
     if (found) kept += run.updates;
-    say("{:7} {:40} {:44} {:9.2g} updates\n", found ? "kept" : "to make", run.case_id, run.label, run.updates);
+    print("{:7} {:40} {:44} {:9.2g} updates\n", found ? "kept" : "to make", run.case_id, run.label, run.updates);
   }
-  say("{} runs, {} of them kept in {}; to make: {:.2g} of {:.2g} updates\n", planned.size(), there,
-      keeping.store.folder().string(), all - kept, all);
+  print("{} runs, {} of them kept in {}; to make: {:.2g} of {:.2g} updates\n", planned.size(), there,
+        keeping.store.folder().string(), all - kept, all);
   return all_passed;
 }
 
@@ -81,8 +81,8 @@ int make_shard(const std::vector<Case>& cases, Running running, const Options& o
       tell("{}: {}: {} {}\n", run.case_id, run.label(), run.status, run.message);
     }
   }
-  say("shard {}: {} runs made and kept in {}, {} were there\n", options.shard, keeping->kept.load(),
-      keeping->store.folder().string(), keeping->found.load());
+  print("shard {}: {} runs made and kept in {}, {} were there\n", options.shard, keeping->kept.load(),
+        keeping->store.folder().string(), keeping->found.load());
   if (keeping->trouble) throw InputError("a run could not be kept: " + *keeping->trouble);
   return all ? all_passed : unstable_or_error;
 }
@@ -133,7 +133,7 @@ int merge_command(const Options& options) {
   }
   const Store into(options.out, "");
   for (const auto& [run, file] : of_words) into.copy(file);
-  say("{}: {} runs of {} stores\n", options.out.string(), of_words.size(), options.selectors.size());
+  print("{}: {} runs of {} stores\n", options.out.string(), of_words.size(), options.selectors.size());
   return all_passed;
 }
 

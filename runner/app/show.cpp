@@ -23,73 +23,73 @@ std::string timing(const LoadSpec& load) {
 }
 
 void show_runs(const Case& c) {
-  say("  runs       {}\n", leaves(c).size());
+  print("  runs       {}\n", leaves(c).size());
   for (const Leaf& leaf : leaves(c)) {
-    say("             {} {} cells, Courant {:g}{}{}\n", leaf.method, leaf.cells, leaf.courant,
-        leaf.particles.empty() ? "" : ", particles at " + particles_label(leaf.particles),
-        parameters_label(leaf).empty() ? "" : ", " + parameters_label(leaf));
+    print("             {} {} cells, Courant {:g}{}{}\n", leaf.method, leaf.cells, leaf.courant,
+          leaf.particles.empty() ? "" : ", particles at " + particles_label(leaf.particles),
+          parameters_label(leaf).empty() ? "" : ", " + parameters_label(leaf));
   }
 }
 
 void show_plate(const Case& c) {
-  say("{}: {}\n  file       {}\n  claim      {}\n  why        {}\n  plate      {}\n", c.id, c.title, c.path.string(),
-      c.claim, c.why, words_of(*c.plate));
+  print("{}: {}\n  file       {}\n  claim      {}\n  why        {}\n  plate      {}\n", c.id, c.title, c.path.string(),
+        c.claim, c.why, words_of(*c.plate));
   if (c.plate->solid) {
-    say("  supports  ");
+    print("  supports  ");
     for (std::size_t side = 0; side < 4; ++side)
-      say(" {} {}{}", side_names[side], support_names[static_cast<std::size_t>(c.plate->supports[side])],
-          side < 3 ? "," : "\n");
+      print(" {} {}{}", side_names[side], support_names[static_cast<std::size_t>(c.plate->supports[side])],
+            side < 3 ? "," : "\n");
   }
   for (const SideLoad& load : c.plate->loads)
-    say("  load       {} {} on the {} side, traction {}{}\n", load.history, load.shear ? "shear" : "normal",
-        side_names[static_cast<std::size_t>(load.side)], load.traction,
-        load.history == "ramp" ? fmt::format(", over {:g} s", load.rise) : "");
+    print("  load       {} {} on the {} side, traction {}{}\n", load.history, load.shear ? "shear" : "normal",
+          side_names[static_cast<std::size_t>(load.side)], load.traction,
+          load.history == "ramp" ? fmt::format(", over {:g} s", load.rise) : "");
   if (const auto& flyer = c.plate->flyer)
-    say("  flyer      {:g} m thick at {:g} m/s, a gap of {:g} {}\n", flyer->thickness, flyer->velocity, flyer->gap,
-        flyer->gap_unit);
-  for (const auto& [feature, key] : plate_features(c)) say("  uses       {}: {}\n", feature, key);
-  for (const auto& [name, value] : c.parameters) say("  parameter  {} = {:g}\n", name, value);
-  for (const PlateVariant& variant : c.variants) say("  variant    {}: {}\n", variant.id, variant.says);
-  say("  exact      {}\n  features   {}\n  sampled    t = {} s\n", c.plate->exact.solution, listed(c.features),
-      listed(c.times));
+    print("  flyer      {:g} m thick at {:g} m/s, a gap of {:g} {}\n", flyer->thickness, flyer->velocity, flyer->gap,
+          flyer->gap_unit);
+  for (const auto& [feature, key] : plate_features(c)) print("  uses       {}: {}\n", feature, key);
+  for (const auto& [name, value] : c.parameters) print("  parameter  {} = {:g}\n", name, value);
+  for (const PlateVariant& variant : c.variants) print("  variant    {}: {}\n", variant.id, variant.says);
+  print("  exact      {}\n  features   {}\n  sampled    t = {} s\n", c.plate->exact.solution, listed(c.features),
+        listed(c.times));
   show_runs(c);
-  for (const PlateProbe& probe : c.plate_probes) say("  probe      {} {}\n", probe.id, probe.reads);
+  for (const PlateProbe& probe : c.plate_probes) print("  probe      {} {}\n", probe.id, probe.reads);
   for (const GaugeSpec& gauge : c.gauges)
-    say("  gauge      {}, {:g} m from the impact face\n", gauge.id, gauge.from_face);
+    print("  gauge      {}, {:g} m from the impact face\n", gauge.id, gauge.from_face);
 }
 
 void show_bars(const Case& c) {
   const auto end_text = [](Support s) { return s == Support::fixed ? "fixed" : "free"; };
-  say("{}: {}\n  file       {}\n  claim      {}\n  why        {}\n", c.id, c.title, c.path.string(), c.claim, c.why);
+  print("{}: {}\n  file       {}\n  claim      {}\n  why        {}\n", c.id, c.title, c.path.string(), c.claim, c.why);
   for (std::size_t b = 0; b < c.bars.size(); ++b) {
     const BarSpec& bar = c.bars[b];
-    say("  bar        {}, wave speed {:g}{}{}\n", words_of(bar), material::wave_speed(bar.material),
-        b == 0 ? "" : fmt::format(", after a gap of {:g} {}", bar.gap.value, bar.gap.unit),
-        bar.velocity.empty() ? "" : ", velocity " + bar.velocity);
+    print("  bar        {}, wave speed {:g}{}{}\n", words_of(bar), material::wave_speed(bar.material),
+          b == 0 ? "" : fmt::format(", after a gap of {:g} {}", bar.gap.value, bar.gap.unit),
+          bar.velocity.empty() ? "" : ", velocity " + bar.velocity);
   }
-  say("  all        {} units, {}–{}, {} displacements\n", c.units, end_text(c.left), end_text(c.right),
-      c.convected ? "finite" : "infinitesimal");
-  for (const auto& [name, value] : c.parameters) say("  parameter  {} = {:g}\n", name, value);
-  if (c.viscosity) say("  viscosity  {}\n", words_of(viscosity_of(c)));
-  if (c.contact == Contact::bonded) say("  contact    bonded (FEM)\n");
+  print("  all        {} units, {}–{}, {} displacements\n", c.units, end_text(c.left), end_text(c.right),
+        c.convected ? "finite" : "infinitesimal");
+  for (const auto& [name, value] : c.parameters) print("  parameter  {} = {:g}\n", name, value);
+  if (c.viscosity) print("  viscosity  {}\n", words_of(viscosity_of(c)));
+  if (c.contact == Contact::bonded) print("  contact    bonded (FEM)\n");
   for (const LoadSpec& load : c.loads) {
-    say("  load       {}{} on the {} end, {}, through the {}\n", load.history, timing(load),
-        load.end == End::left ? "left" : "right",
-        load.history == "expression" ? load.expression : fmt::format("traction {:g}", load.traction),
-        load.transfer == Transfer::node ? "boundary node" : "boundary layer (eq. 16)");
+    print("  load       {}{} on the {} end, {}, through the {}\n", load.history, timing(load),
+          load.end == End::left ? "left" : "right",
+          load.history == "expression" ? load.expression : fmt::format("traction {:g}", load.traction),
+          load.transfer == Transfer::node ? "boundary node" : "boundary layer (eq. 16)");
   }
-  if (!c.body_force.empty()) say("  body force {}\n", c.body_force);
-  if (!c.initial_velocity.empty()) say("  velocity   {} at the start\n", c.initial_velocity);
-  if (!c.initial_stress.empty()) say("  stress     {} at the start\n", c.initial_stress);
+  if (!c.body_force.empty()) print("  body force {}\n", c.body_force);
+  if (!c.initial_velocity.empty()) print("  velocity   {} at the start\n", c.initial_velocity);
+  if (!c.initial_stress.empty()) print("  stress     {} at the start\n", c.initial_stress);
   if (c.exact.solution == "expressions") {
-    say("  exact      stress {}; velocity {}; displacement {}\n", c.exact.stress, c.exact.velocity,
-        c.exact.displacement);
+    print("  exact      stress {}; velocity {}; displacement {}\n", c.exact.stress, c.exact.velocity,
+          c.exact.displacement);
   }
-  say("  exact      {}\n  features   {}\n  sampled    t = {} {}{}\n", c.exact.solution, listed(c.features),
-      listed(c.times), c.time_unit, c.from_contact ? " from contact" : "");
+  print("  exact      {}\n  features   {}\n  sampled    t = {} {}{}\n", c.exact.solution, listed(c.features),
+        listed(c.times), c.time_unit, c.from_contact ? " from contact" : "");
   show_runs(c);
   for (const Probe& probe : c.probes) {
-    say("  probe      {} {} at {:g} {}\n", probe.id, probe.field, probe.at.value, probe.at.unit);
+    print("  probe      {} {} at {:g} {}\n", probe.id, probe.field, probe.at.value, probe.at.unit);
   }
 }
 
@@ -102,8 +102,8 @@ int show_command(const Options& options) {
     else
       show_bars(c);
     for (const GateSpec& gate : c.gates)
-      say("  gate       {:24} {}\n{:38}{}\n", gate.id, words(gate.declaration), "", gate.reason);
-    for (const FigureSpec& figure : c.figures) say("  figure     {}\n", figure.id);
+      print("  gate       {:24} {}\n{:38}{}\n", gate.id, words(gate.declaration), "", gate.reason);
+    for (const FigureSpec& figure : c.figures) print("  figure     {}\n", figure.id);
   }
   return all_passed;
 }

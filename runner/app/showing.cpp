@@ -67,12 +67,12 @@ int draw_figures(const std::vector<reports::Case>& results, const std::filesyste
       std::string message;
       const reports::Drawn drawn = reports::draw(figure, directory, message);
       if (drawn == reports::Drawn::yes) {
-        say("{}\n", (directory / (figure.id + ".svg")).string());
+        print("{}\n", (directory / (figure.id + ".svg")).string());
         continue;
       }
       missing = missing || drawn == reports::Drawn::gnuplot_missing;
       undrawn += drawn == reports::Drawn::gnuplot_failed;
-      say("{}  (script and data only)\n", (directory / (figure.id + ".gp")).string());
+      print("{}  (script and data only)\n", (directory / (figure.id + ".gp")).string());
       if (drawn == reports::Drawn::gnuplot_failed) tell("gnuplot failed on {}: {}\n", figure.id, message);
     }
   };
@@ -84,7 +84,7 @@ int draw_figures(const std::vector<reports::Case>& results, const std::filesyste
       if (!wanted.empty() && !wanted.count(name)) continue;
       const auto path = directory / (name + ".html");
       reports::write_page(page, path);
-      say("{}\n", path.string());
+      print("{}\n", path.string());
     }
   }
   if (missing) tell("gnuplot is not installed: no pictures, all else is complete (apt-get install gnuplot-nox)\n");

@@ -21,7 +21,7 @@ namespace diptych::runner {
 /// Writes to standard output. That a terminal or a pipe takes no more costs no result: main() looks at the end whether
 /// all was written, and says so by the exit status.
 template <class... Args>
-void say(fmt::format_string<Args...> format, Args&&... args) {
+void print(fmt::format_string<Args...> format, Args&&... args) {
   const std::string text = fmt::format(format, std::forward<Args>(args)...);
   std::fwrite(text.data(), 1, text.size(), stdout);
 }

@@ -22,17 +22,17 @@ int stability_command(const Options& options, const std::atomic<bool>& cancelled
   const reports::StabilityMap map =
       stability_map(c, {options.over, options.steps, threads_of(options), &cancelled, progress()});
   if (cancelled) return unstable_or_error;  // what was stopped is neither stable nor unstable
-  say("{}\n", reports::stability_text(map, options.within));
+  print("{}\n", reports::stability_text(map, options.within));
   const auto folder = options.out / "stability";
   reports::write_file(folder / (map.case_id + ".csv"), reports::stability_csv(map));
   reports::write_file(folder / (map.case_id + ".json"), reports::stability_json(map, provenance()));
-  say("{}\n", (folder / (map.case_id + ".{csv,json}")).string());
+  print("{}\n", (folder / (map.case_id + ".{csv,json}")).string());
   if (const auto figure = stability_figure(map)) {
     reports::Case drawn;
     drawn.figures.push_back(*figure);
     draw_figures({drawn}, folder, {});
   }
-  say("{}\n", reports::stability_verdict(map, options.within));
+  print("{}\n", reports::stability_verdict(map, options.within));
   const auto all = [&](const auto& asked) { return std::all_of(map.limits.begin(), map.limits.end(), asked); };
   if (!all([](const reports::StabilityLimit& one) { return one.stable || one.unstable; })) return unstable_or_error;
   return all([&](const reports::StabilityLimit& one) { return one.agrees(options.within); }) ? all_passed : some_failed;

@@ -33,13 +33,13 @@ int list_records(const std::vector<StoredRun>& records, const Store& store) {
     ++sum.runs;
     sum.bytes += record.bytes;
   }
-  for (const auto& [id, sum] : of_case) say("{:40} {:5} runs  {}\n", id, sum.runs, size_in_words(sum.bytes));
+  for (const auto& [id, sum] : of_case) print("{:40} {:5} runs  {}\n", id, sum.runs, size_in_words(sum.bytes));
   if (others.runs > 0)
-    say("{:40} {:5} runs  {}\n", "of other builds of the program", others.runs, size_in_words(others.bytes));
+    print("{:40} {:5} runs  {}\n", "of other builds of the program", others.runs, size_in_words(others.bytes));
   if (damaged.runs > 0)
-    say("{:40} {:5} runs  {}: see diptych store verify\n", "not whole, and not believed", damaged.runs,
-        size_in_words(damaged.bytes));
-  if (records.empty()) say("{}: no runs are kept here\n", store.folder().string());
+    print("{:40} {:5} runs  {}: see diptych store verify\n", "not whole, and not believed", damaged.runs,
+          size_in_words(damaged.bytes));
+  if (records.empty()) print("{}: no runs are kept here\n", store.folder().string());
   return all_passed;
 }
 
@@ -48,9 +48,9 @@ int verify_records(const std::vector<StoredRun>& records, const Store& store) {
   for (const StoredRun& record : records) {
     if (record.damage.empty()) continue;
     ++damaged;
-    say("{}: {}\n", record.file.string(), record.damage);
+    print("{}: {}\n", record.file.string(), record.damage);
   }
-  say("{}: {} runs, {} not whole\n", store.folder().string(), records.size(), damaged);
+  print("{}: {} runs, {} not whole\n", store.folder().string(), records.size(), damaged);
   return damaged == 0 ? all_passed : invalid;
 }
 
@@ -70,7 +70,7 @@ int prune_records(const std::vector<StoredRun>& records, const Store& store, boo
     std::error_code ignored;
     take_away(file, std::filesystem::file_size(file, ignored));
   }
-  say("{}: {} files removed, {}\n", store.folder().string(), files, size_in_words(bytes));
+  print("{}: {} files removed, {}\n", store.folder().string(), files, size_in_words(bytes));
   return all_passed;
 }
 

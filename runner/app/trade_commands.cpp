@@ -139,7 +139,7 @@ void write_trade(const reports::Trade& trade, const reports::Trade& shown, const
   const auto folder = options.out / "trade";
   reports::write_file(folder / (trade.case_id + ".csv"), reports::trade_csv(trade));
   reports::write_file(folder / (trade.case_id + ".json"), reports::trade_json(trade, provenance()));
-  say("{}\n", (folder / (trade.case_id + ".{csv,json}")).string());
+  print("{}\n", (folder / (trade.case_id + ".{csv,json}")).string());
   reports::Case drawn;
   drawn.figures.push_back(work_precision(shown, aim, trade.case_id + ".cost"));
   drawn.figures.push_back(efficacy(shown, aim, trade.case_id + ".efficacy"));
@@ -163,7 +163,7 @@ int trade_command(const Options& options, const std::atomic<bool>& cancelled) {
   if (cancelled && trade.aims().empty()) return unstable_or_error;  // nothing to show yet
   const reports::Trade shown = of_scene(trade, scene_asked(options, trade));
   const reports::Aim aim = aim_of(options, shown);
-  say("{}\n{}\n", reports::trade_text(shown, aim, cost), others_of(shown));
+  print("{}\n{}\n", reports::trade_text(shown, aim, cost), others_of(shown));
   write_trade(trade, shown, aim, options);
   return stopped(trade) || cancelled ? unstable_or_error : all_passed;
 }
@@ -191,7 +191,7 @@ int pick_command(const Options& options, const std::atomic<bool>& cancelled) {
   trade = of_scene(trade, scene_asked(options, trade));
   target.aim = aim_of(options, trade);
   const Pick found = pick(trade, target);
-  say("{}", words_of(trade, target, found));
+  print("{}", words_of(trade, target, found));
   // Each proposal that is retracted tells more for the next one.
   constexpr int most = 3;
   bool confirmed = false;
@@ -199,7 +199,7 @@ int pick_command(const Options& options, const std::atomic<bool>& cancelled) {
     const auto proposal = propose(trade, target, pick(trade, target));
     if (!proposal) break;
     const Trial trial = tried(asked.cases, target, *proposal, running);
-    say("{}", trial.words);
+    print("{}", trial.words);
     confirmed = trial.confirmed;
     if (!trial.point.completed()) break;  // it would be proposed again
     trade.points.push_back(trial.point);
