@@ -12,9 +12,11 @@
 #include "reports/files.hpp"
 #include "reports/page.hpp"
 #include "reports/tables.hpp"
+#include "reports/verdicts.hpp"
 #include "reports/vtu.hpp"
 #include "runner/app/case_file.hpp"
 #include "runner/app/catalogue.hpp"
+#include "runner/app/failed_gates.hpp"
 #include "runner/app/keeping.hpp"
 #include "runner/app/provenance.hpp"
 #include "runner/app/showing.hpp"
@@ -138,6 +140,16 @@ int finish(const std::vector<Case>& cases, const std::vector<reports::Case>& res
   print("DIPTYCH-VERDICT {} gates={}/{} passed={} left_out={}\n", outcome.verdict, outcome.judged, outcome.declared,
         outcome.passed, outcome.left_out);
   return outcome.exit_code;
+}
+
+/// What failed is kept for --failed; where it cannot be, the verdict is the same.
+void note_failed(const std::vector<reports::Case>& results, const Options& options) {
+  if (options.store == "none" || !options.from.empty()) return;
+  try {
+    note_failed_gates(store_of(options), results);
+  } catch (const std::exception& problem) {
+    tell("which gates failed could not be kept: {}\n", problem.what());
+  }
 }
 
 /// Takes the gates marked slow away and returns their names.
@@ -266,7 +278,15 @@ int run_command(const Options& options, const std::atomic<bool>& cancelled) {
 }
 
 int gate_command(const Options& options, const std::atomic<bool>& cancelled) {
-  auto cases = select_cases(options.selectors);
+  if (options.failed && !options.selectors.empty())
+    throw InputError("--failed: found with " + listed(options.selectors) + "; allowed: alone, or CASE without it");
+  if (options.failed && options.store == "none")
+    throw InputError("--failed: found with --store none; allowed: with a store, where it is kept what failed");
+  const auto failed = options.failed ? failed_gates(store_of(options)) : Names{};
+  if (options.failed)
+    tell("{} gates did not pass when they were judged last{}\n", failed.size(),
+         failed.empty() ? ": all are judged" : "");
+  auto cases = select_cases(options.failed ? failed : options.selectors);
   const auto left_out = options.quick ? leave_out_slow(cases) : std::vector<std::string>{};
   if (!options.shard.empty()) return make_shard(cases, running_for(options, Purpose::judge, cancelled), options);
   prepare_file("--json", options.json, cases);
@@ -276,13 +296,24 @@ int gate_command(const Options& options, const std::atomic<bool>& cancelled) {
   const auto results = measure_cases(cases, options, Purpose::judge, cancelled);
   if (!options.json.empty()) reports::write_file(options.json, reports::results_jsonl(results, provenance()));
   if (!options.junit.empty()) reports::write_file(options.junit, reports::junit_xml(results));
-  for (const auto& result : results) {
-    for (const auto& gate : result.gates) print_gate(gate);
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    for (const auto& gate : results[i].gates) {
+      if (options.verbose)
+        print("{}\n", explanation(cases[i], gate));
+      else if (!options.quiet)
+        print_gate(gate);
+    }
   }
-  for (const std::string& gate : left_out) print("{:8} {}  slow\n", "LEFT OUT", gate);
+  if (!options.quiet)
+    for (const std::string& gate : left_out) print("{:8} {}  slow\n", "LEFT OUT", gate);
   const bool stopped = any_cancelled(results);
-  return finish(cases, results, static_cast<int>(left_out.size()), options.selectors.empty() && !options.quick,
-                stopped);
+  note_failed(results, options);
+  if (options.durations > 0) print("\n{}", reports::durations_text(results, options.durations));
+  if (!options.quiet) print("\n{}", reports::verified_text(results));
+  if (const std::string failures = reports::failures_text(results); !failures.empty())
+    print("\nNot passed (diptych gate --failed judges these again):\n{}", failures);
+  const bool whole = options.selectors.empty() && !options.quick && failed.empty();
+  return finish(cases, results, static_cast<int>(left_out.size()), whole, stopped);
 }
 
 int explain_command(const Options& options, const std::atomic<bool>& cancelled) {

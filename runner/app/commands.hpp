@@ -25,6 +25,10 @@ struct Options {
   int threads = 0;                        ///< 0: all there are
   bool quick = false;
   bool fail_fast = false;  ///< gate: no further runs for a gate that has failed
+  bool failed = false;     ///< gate: only gates that did not pass when they were judged last
+  bool quiet = false;      ///< gate: only what failed, and the verdict
+  bool verbose = false;    ///< gate: the numbers of every gate
+  int durations = 0;       ///< gate: tell of so many cases, the slowest
   bool declarations = false;
   std::vector<std::string> only;  ///< run: the labels of the runs to make; empty: all of them
   bool fields = false;            ///< run: also write all fields at the sample times

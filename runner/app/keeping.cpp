@@ -14,14 +14,10 @@
 #include "runner/input/messages.hpp"
 
 namespace diptych::runner {
-namespace {
 
-/// Where a command says nothing of it, the store stands with its results.
 std::filesystem::path store_of(const Options& options) {
   return options.store.empty() ? options.out / "store" : options.store;
 }
-
-}  // namespace
 
 std::string build_of_this_program() {
   static const std::string build = [] {

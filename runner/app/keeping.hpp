@@ -1,6 +1,7 @@
 // Where the commands keep what their runs measured.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,6 +14,9 @@ namespace diptych::runner {
 /// What made this program's numbers: version, commit, compiler, flags, libraries, the hash of the program itself, and
 /// what its environment tells it.
 std::string build_of_this_program();
+
+/// Where a command says nothing of it, the store stands with its results.
+std::filesystem::path store_of(const Options&);
 
 /// The store that --store names; null for "none".
 std::unique_ptr<Keeping> keeping_of(const Options&);

@@ -198,6 +198,11 @@ int main(int argc, char** argv) {
   add_cases(gate, false);
   gate->add_flag("--quick", options.quick, "leave out the gates marked slow, and say which");
   gate->add_flag("--fail-fast", options.fail_fast, "make no further runs for a gate that has failed");
+  gate->add_flag("--failed", options.failed, "only the gates that did not pass when they were judged last");
+  gate->add_flag("-q", options.quiet, "only what did not pass, and the verdict");
+  gate->add_flag("-v", options.verbose, "of every gate formula, numbers, prediction and band, as explain has them");
+  gate->add_option("--durations", options.durations, "also the N cases that took longest")
+      ->check(CLI::Range(1, 10'000));
   gate->add_option("--json", options.json, "also write results to this file (JSON lines)");
   gate->add_option("--junit", options.junit, "also write verdicts to this file (JUnit XML)");
   add_threads(gate);
