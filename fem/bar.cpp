@@ -170,7 +170,8 @@ Record run(const Scene& scene, int cells, const Stepping& stepping) {
   };
   return std::visit(
       [&](const auto& laws) {
-        return scene.viscosity ? go.template operator()<true>(laws) : go.template operator()<false>(laws);
+        return material::acting(scene.viscosity) ? go.template operator()<true>(laws)
+                                                 : go.template operator()<false>(laws);
       },
       laws(scene));
 }

@@ -33,12 +33,14 @@ class PlateBody {
         rows_(mesh_.ny, stepping.threads),
         border_(plate, mesh_),
         stress_(solid.elastic().stiffness(), mesh_.h),
-        material_(solid, mesh_, rows_, stress_, plate.viscosity.has_value(), stepping.books != Books::off),
-        sweep_(mesh_, border_, stress_, rows_, static_cast<bool>(plate.body_force), plate.viscosity.has_value()),
+        material_(solid, mesh_, rows_, stress_, material::acting(plate.viscosity) != nullptr,
+                  stepping.books != Books::off),
+        sweep_(mesh_, border_, stress_, rows_, static_cast<bool>(plate.body_force),
+               material::acting(plate.viscosity) != nullptr),
         books_(mesh_, rows_, border_, stress_, material_, viscosity_, dt_, stepping.books != Books::off),
         gauges_(plate, cells, stepping.steps, !material_.model().fields().dilatancy.empty()) {
     if (border_.has_platen()) platen_.reserve(static_cast<Index>(stepping.steps));
-    if (plate.viscosity) viscosity_.emplace(plate, mesh_, stress_, rows_);
+    if (material::acting(plate.viscosity)) viscosity_.emplace(plate, mesh_, stress_, rows_);
     // A plate at rest has no strains that cracks could grow by.
     if (Model::stands_at_start && plate.initial_displacement) material_.advance(dt_);
     if (!Model::linear) material_.update_stress(dt_, false);

@@ -17,7 +17,8 @@ Record run(const Scene& scene, const std::vector<Law>& laws, int cells, const st
     return take_steps(bars, stepping);
   };
   const auto with = [&]<Carries carries>() {
-    return scene.viscosity ? go.template operator()<carries, true>() : go.template operator()<carries, false>();
+    return material::acting(scene.viscosity) ? go.template operator()<carries, true>()
+                                             : go.template operator()<carries, false>();
   };
   if (scene.convected) return with.template operator()<Carries::stretch>();
   if (scene.bars.size() > 1) return with.template operator()<Carries::cell>();

@@ -52,7 +52,8 @@ class PlateBody {
     state.volume = grid_.hx * grid_.hy / static_cast<double>(particles_.per_cell());
     state.mass = elastic(plate_).density * state.volume;
     if (Model::staggered) driver_.resize(lattice_.nx * lattice_.ny);
-    if (plate_.viscosity) damping_.emplace(*plate_.viscosity, plate_, grid_, particles_.storage());
+    if (const auto* viscosity = material::acting(plate_.viscosity))
+      damping_.emplace(*viscosity, plate_, grid_, particles_.storage());
     if (supports_.has_platen()) platen_.reserve(static_cast<std::size_t>(setup.stepping.steps));
     particles_.map_mass(bands_);
     start(setup.cells);
@@ -157,7 +158,8 @@ class PlateBody {
   Work work(long steps) const {
     return {0, static_cast<long>(particles_.count()) * steps, static_cast<long>(grid_.nodes()) * steps,
             particles_.bytes() + model_.bytes() + grid_.bytes() + bands_.bytes() + supports_.bytes() + loads_.bytes() +
-                driver_.capacity() * sizeof(double) + (damping_ ? damping_->bytes() : 0)};
+                books_.bytes() + gauges_.bytes() + driver_.capacity() * sizeof(double) +
+                (damping_ ? damping_->bytes() : 0)};
   }
   void complete(PlateRecord& record) {
     record.platen = std::move(platen_);

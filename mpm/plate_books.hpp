@@ -161,6 +161,8 @@ class PlateBooks {
     }
   }
 
+  std::size_t bytes() const { return row_sums_.capacity() * sizeof(row_sums_[0]); }
+
  private:
   /// A part of PIC adds d = part · (Σ N v − v_p) to a particle's velocity.
   void account_for_pic(double kick, Ledger& ledger) {

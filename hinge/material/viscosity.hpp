@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 namespace diptych::material {
 
@@ -21,6 +22,8 @@ struct Viscosity {
   double length = std::numbers::sqrt2;  ///< g of eq. 21 in cells
   bool always = false;                  ///< also in expansion
 
+  /// False where its coefficients give no stress, whatever the rate of strain.
+  bool gives_stress() const { return (c1 != 0 || c2 != 0) && (form != Form::york || (bulk != 0 && length != 0)); }
   bool acts(double D) const { return D < 0 || (always && D > 0); }  // eq. 22
 
   /// Whether the largest |D| of all points where it acts must be known first.
@@ -41,5 +44,11 @@ struct Viscosity {
     return form == Form::york ? bulk * length * (c1 + c2) : c1 + c2 * jump / speed;
   }
 };
+
+/// The viscosity that a run has to build up: null where none is written, and where what is written gives no stress, so
+/// that a zero costs what nothing costs.
+inline const Viscosity* acting(const std::optional<Viscosity>& written) {
+  return written && written->gives_stress() ? &*written : nullptr;
+}
 
 }  // namespace diptych::material

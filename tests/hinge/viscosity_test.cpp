@@ -247,6 +247,24 @@ BOOST_DATA_TEST_CASE(it_is_told_among_the_features_and_takes_memory_only_where_i
   BOOST_TEST(with.work.bytes == without.work.bytes + points * sizeof(double));
 }
 
+BOOST_DATA_TEST_CASE(of_coefficients_that_give_no_stress_it_is_none, bdata::make({0, 1, 2, 3}), method) {
+  Viscosity of_no_bulk = york;
+  of_no_bulk.bulk = 0;
+  for (const Viscosity& nothing :
+       {Viscosity{Viscosity::Form::york, 0, 0}, of_no_bulk, Viscosity{Viscosity::Form::linear_quadratic, 0, 0}}) {
+    const Record without = run_bars(method, squeezed({}), 20, steps_of(1e-5, 10)),
+                 with = run_bars(method, squeezed(nothing), 20, steps_of(1e-5, 10));
+    same_bits(without, with);
+    BOOST_TEST(with.features == without.features, tt::per_element());
+    BOOST_TEST(with.work.bytes == without.work.bytes);
+  }
+  Viscosity quadratic_alone = common;
+  quadratic_alone.c1 = 0;
+  quadratic_alone.c2 = 1;
+  BOOST_TEST(material::acting(quadratic_alone) != nullptr);
+  BOOST_TEST(material::acting({}) == nullptr);
+}
+
 // Work of a pressure on compression: each step adds to it, and the motion has as much less.
 BOOST_DATA_TEST_CASE(its_work_is_heat_and_stands_in_the_books, bdata::make({0, 1, 3}), method) {
   for (const Viscosity& v : {york, common}) {
