@@ -24,23 +24,6 @@ struct VectorField {
   std::size_t bytes() const { return (x.capacity() + y.capacity()) * sizeof(double); }
 };
 
-/// A length for rows of which several are worked on together, a few numbers longer where rows of the length itself
-/// would lie whole pages apart, which caches and store buffers take for one and the same address.
-inline std::size_t off_pages(std::size_t length, std::size_t rows) {
-  constexpr std::size_t page = 512, near = 16;  // in numbers
-  const auto clashes = [&](std::size_t padded) {
-    for (std::size_t k = 1; k < std::min<std::size_t>(rows, 8); ++k) {
-      const std::size_t apart = k * padded;
-      if (apart + near > page && (apart + near) % page < 2 * near) return true;
-    }
-    return false;
-  };
-  for (std::size_t padded = length; padded < length + 64; ++padded) {
-    if (!clashes(padded)) return padded;
-  }
-  return length;
-}
-
 /// Nodes row by row from the bottom, each row from the left.
 struct Grid {
   static constexpr std::size_t uncut = static_cast<std::size_t>(-1);

@@ -38,6 +38,11 @@ expect 0 'elastic +fem +[0-9]+ +[0-9x]+ +1 +[0-9.]+' "$program" bench elastic --
 expect 0 '"type":"bench","scene":"elastic","method":"mpm-musl"' cat bench.jsonl
 expect 14 'found "elastik"; allowed: .*did you mean "elastic"' "$program" bench elastik
 expect 14 'method: found "femm"; allowed: .*did you mean "fem"' "$program" bench --method femm
+expect 0 'viscosity +bar +fem +600 zero +same .* 0.00 ' "$program" bench --off viscosity --points 600 --rounds 1 --json off.jsonl
+expect 0 '"type":"off","feature":"viscosity","scene":"bar","method":"mpm-musl"' cat off.jsonl
+expect 14 'found "viscousity"; allowed: .*did you mean "viscosity"' "$program" bench --off viscousity
+expect 14 'allowed with --off: 1' "$program" bench --off --threads 2
+expect 14 'strict-time requires --off' "$program" bench --strict-time
 expect 0 'plasticity  required: ' "$program" ablate impact.hardening --out ablated
 expect 0 '^fem N=100 C=0.5,convection,off,.*,completed,' cat ablated/ablate/impact.hardening.csv
 expect 0 '"type":"ablation","case":"impact.hardening"' cat ablated/ablate/impact.hardening.json

@@ -1,6 +1,7 @@
 // Tensors of a plate's points and stiffnesses of its cells, one array a component: what loops over rows of cells read.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -8,13 +9,33 @@
 
 namespace diptych {
 
-/// `count` zeros, with a little room to spare where arrays of this length that are allocated one after the other would
-/// begin a whole multiple of 64 KiB apart: all of them would fall on the same few lines of the caches.
-inline void allocate(std::vector<double>& values, std::size_t count) {
+/// Room for `count` numbers, with a little to spare where arrays of this length that are allocated one after the other
+/// would begin a whole multiple of 64 KiB apart: all of them would fall on the same few lines of the caches.
+inline std::size_t off_cycles(std::size_t count) {
   constexpr std::size_t cycle = 8192, near = 1024;  // in numbers
-  const std::size_t clash = (count + near) % cycle < 3 * near && count > cycle ? 4 * near : 0;
-  values.reserve(count + clash);
+  return count + ((count + near) % cycle < 3 * near && count > cycle ? 4 * near : 0);
+}
+/// `count` zeros in such room.
+inline void allocate(std::vector<double>& values, std::size_t count) {
+  values.reserve(off_cycles(count));
   values.assign(count, 0);
+}
+
+/// A length for rows of which several are worked on together, a few numbers longer where rows of the length itself
+/// would lie whole pages apart, which caches and store buffers take for one and the same address.
+inline std::size_t off_pages(std::size_t length, std::size_t rows) {
+  constexpr std::size_t page = 512, near = 16;  // in numbers
+  const auto clashes = [&](std::size_t padded) {
+    for (std::size_t k = 1; k < std::min<std::size_t>(rows, 8); ++k) {
+      const std::size_t apart = k * padded;
+      if (apart + near > page && (apart + near) % page < 2 * near) return true;
+    }
+    return false;
+  };
+  for (std::size_t padded = length; padded < length + 64; ++padded) {
+    if (!clashes(padded)) return padded;
+  }
+  return length;
 }
 
 /// A symmetric tensor on every point.

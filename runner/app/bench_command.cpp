@@ -6,6 +6,7 @@
 
 #include "reports/bench_table.hpp"
 #include "reports/files.hpp"
+#include "reports/off_table.hpp"
 #include "runner/app/commands.hpp"
 #include "runner/app/provenance.hpp"
 #include "runner/app/showing.hpp"
@@ -14,6 +15,8 @@
 #include "runner/panel.hpp"
 #include "runner/trade/bench.hpp"
 #include "runner/trade/bench_scenes.hpp"
+#include "runner/trade/off.hpp"
+#include "runner/trade/off_scenes.hpp"
 
 namespace diptych::runner {
 namespace {
@@ -26,15 +29,41 @@ Names usual_methods() {
   return all;
 }
 
+/// Bits and bytes are the same in every run of the program, and times are the machine's: these count if asked.
+int off_command(const Options& options, const std::atomic<bool>& cancelled) {
+  Names features;
+  for (const OffPair& pair : off_pairs()) features.push_back(pair.feature);
+  OffPlan plan{features, usual_methods(), options.points, options.rounds};
+  if (!options.selectors.empty()) plan.features = options.selectors;
+  if (!options.methods.empty()) plan.methods = options.methods;
+  for (const std::string& feature : plan.features) require_one_of("bench --off", feature, features);
+  for (const std::string& method : plan.methods) require_one_of("--method", method, panels_for(SceneKind::plate));
+  if (options.counts.size() > 1 || (!options.counts.empty() && options.counts[0] != 1))
+    throw InputError("--threads: found more than one; allowed with --off: 1");
+  if (!options.json.empty()) prepare(options.json.parent_path().empty() ? "." : options.json.parent_path());
+  const std::vector<reports::OffRow> rows = off(plan, &cancelled, progress());
+  say("{}", reports::off_text(rows));
+  if (!options.json.empty()) reports::write_file(options.json, reports::off_json(rows, provenance()));
+  if (cancelled) return unstable_or_error;
+  const auto all = [&](auto&& holds) { return std::all_of(rows.begin(), rows.end(), holds); };
+  if (!all([](const reports::OffRow& row) { return row.trouble.empty(); })) return unstable_or_error;
+  const bool quick = !options.strict_time ||
+                     all([](const reports::OffRow& row) { return row.time() == reports::OffRow::Time::quick; });
+  return quick && all([](const reports::OffRow& row) { return row.exact(); }) ? all_passed : some_failed;
+}
+
 }  // namespace
 
 std::string bench_footer() {
   std::string out = "Example: diptych bench damage diffusion --points 1e5 --threads 1\n";
   for (const BenchScene& scene : bench_scenes()) out += fmt::format("\n  {:<10} {}", scene.id, scene.says);
+  out += "\n\nExample: diptych bench --off viscosity books --points 1e5\n";
+  for (const OffPair& pair : off_pairs()) out += fmt::format("\n  {:<10} {}", pair.feature, pair.says);
   return out;
 }
 
 int bench_command(const Options& options, const std::atomic<bool>& cancelled) {
+  if (options.off) return off_command(options, cancelled);
   Names scenes;
   for (const BenchScene& scene : bench_scenes()) scenes.push_back(scene.id);
   BenchPlan plan{scenes, usual_methods(), options.points, options.counts, options.rounds};

@@ -176,6 +176,10 @@ int main(int argc, char** argv) {
 
   auto* bench = app.add_subcommand("bench", "how quick the solvers' loops are, beside what the memory gives");
   bench->add_option("SCENE", options.selectors, "of those below; all without one");
+  bench->add_flag("--off", options.off,
+                  "instead, what features cost a scene that does not use them: bits, bytes and time beside the scene "
+                  "with the feature, one thread; the status is 10 for bits and bytes");
+  bench->add_flag("--strict-time", options.strict_time, "with --off: also for more than 2 % of time")->needs("--off");
   bench
       ->add_option("--method", options.methods,
                    "ids of methods, as cases have them; the usual one of each family without it")
