@@ -5,19 +5,22 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reports/text.hpp"
+
 namespace diptych::reports {
 
 std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  const std::string shown = printable(text);
+  if (shown.find_first_of(",\"\n") == std::string::npos) return shown;
   std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  for (const char c : shown) out += c == '"' ? std::string("\"\"") : std::string(1, c);
   return out + "\"";
 }
 
-std::string csv_note(const std::string& key, std::string value) {
-  std::replace_if(
-      value.begin(), value.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
-  return "# " + key + ": " + value + "\n";
+std::string csv_note(const std::string& key, const std::string& value) {
+  std::string line = printable(value);
+  std::replace(line.begin(), line.end(), '\n', ' ');
+  return "# " + key + ": " + line + "\n";
 }
 
 std::string csv_number(double value) { return std::isnan(value) ? std::string("nan") : fmt::format("{}", value); }

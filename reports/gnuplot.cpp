@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "reports/files.hpp"
+#include "reports/text.hpp"
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
@@ -150,10 +151,14 @@ std::string complaint(const Outcome& outcome, const fs::path& svg) {
 
 void check_id(const std::string& id) {
   constexpr std::string_view allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.";
-  if (id.empty() || id.front() == '.' || id.front() == '-' || id.find_first_not_of(allowed) != std::string::npos)
+  constexpr std::size_t longest = 200;  // names of files have at most 255 bytes, with an ending and what marks a draft
+  if (id.empty() || id.front() == '.' || id.front() == '-' || id.find_first_not_of(allowed) != std::string::npos ||
+      id.size() > longest)
     throw std::invalid_argument(
-        "figure '" + id +
-        "': an id names files: letters, digits, '_', '-' and '.', starting with a letter, digit or '_'");
+        fmt::format("figure '{}': an id names files: at most {} letters, digits, '_', '-' and '.', starting with a "
+                    "letter, digit or "
+                    "'_'",
+                    printable(id), longest));
 }
 
 void send_points(std::ostream& gp, const std::vector<std::pair<double, double>>& points) {

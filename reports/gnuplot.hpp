@@ -12,7 +12,8 @@
 
 namespace diptych::reports {
 
-/// Throws std::invalid_argument unless the id is a plain file name: letters, digits, '_', '-' and '.'.
+/// Throws std::invalid_argument unless the id is a plain file name: at most 200 letters, digits, '_',
+/// '-' and '.'.
 void check_id(const std::string& id);
 
 /// What a '-' of the last plot command is to read, with 18 digits. `gp` is the stream that draw_files gives.

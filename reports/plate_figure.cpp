@@ -110,7 +110,7 @@ void write_head(const Sheet& sheet, const PlateFigure& figure, const Layout& lay
   begin_page(gp, figure.id, layout.width, layout.height, true);
   gp << "# Change the looks here.\n";
   for (const std::size_t k : layout.kinds)
-    gp << "set style line " << k + 1 << ' ' << layout.looks[k].line << "  # " << layout.looks[k].name << '\n';
+    gp << "set style line " << k + 1 << ' ' << layout.looks[k].line << "  # " << quoted(layout.looks[k].name) << '\n';
   gp << "set style line 99 lw 4.2 lc rgb '#ffffff'  # under the contours\n"
      << "set style line 101 lw 0.9 lc rgb '#707070'  # axes\n";
   for (std::size_t s = 0; s < layout.scales.size(); ++s) {

@@ -23,10 +23,18 @@ Heading heading_of(const std::string& title, const std::vector<std::string>& not
 }
 
 std::string quoted(const std::string& text) {
+  // gnuplot 5.4 takes two apostrophes for one only behind another character: not at the beginning, not behind one.
+  // Those stand in double quotes, joined by its '.'. Its SVG terminal writes texts as CDATA, which "]]>" would end.
+  const std::string shown = printable(text);
   std::string out = "'";
-  for (const char c : text) {
-    if (c == '\'') out += '\'';
-    out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    const char c = shown[i];
+    if (c == '\'')
+      out += i == 0 || shown[i - 1] == c ? "'.\"'\".'" : "''";
+    else if (c == '>' && i >= 2 && shown[i - 1] == ']' && shown[i - 2] == ']')
+      out += "\u200b>";
+    else
+      out += c == '\n' || c == '\t' ? ' ' : c;
   }
   return out + "'";
 }

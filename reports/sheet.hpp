@@ -39,7 +39,7 @@ void write_heading(const Heading& heading, const Write& write) {
   }
 }
 
-/// A string in gnuplot's single quotes, in which nothing is expanded.
+/// A string for gnuplot, in which nothing is expanded and which its SVG terminal can write.
 std::string quoted(const std::string& text);
 
 /// The same for a page with enhanced text: "L_x", "ε_v" get their subscript (one letter, '_' and up to four letters or

@@ -1,4 +1,4 @@
-// Lengths of text, breaking it into lines, and what of it a file of XML can hold.
+// Lengths of text, breaking it into lines, and what of it files and terminals can hold.
 #pragma once
 
 #include <string>
@@ -16,7 +16,8 @@ std::string to_left(const std::string& text, std::size_t width);
 /// Breaks at spaces into lines of at most so many pixels, where words allow.
 std::vector<std::string> lines_of(const std::string& text, double pixels, double per_character);
 
-/// XML 1.0 has no control characters, not even escaped ones: each becomes a question mark.
-std::string printable(std::string text);
+/// What any reader of XML takes and a terminal only shows: each character that XML 1.0 cannot hold even escaped, each
+/// control character but a line's end and a tab, and each sequence of bytes that is no UTF-8 becomes a question mark.
+std::string printable(const std::string& text);
 
 }  // namespace diptych::reports

@@ -72,7 +72,7 @@ std::string text_table(const Case& data) {
     for (const double asked : times(group))
       for (const std::string& field : fields(group, asked)) out += text_of(error_grid(data, group, asked, field));
   }
-  return out;
+  return printable(out);
 }
 
 }  // namespace diptych::reports

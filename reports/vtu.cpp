@@ -14,6 +14,7 @@
 #include <stdexcept>
 
 #include "reports/files.hpp"
+#include "reports/text.hpp"
 
 namespace diptych::reports {
 namespace {
@@ -47,7 +48,7 @@ pugi::xml_node add_array(pugi::xml_node parent, const char* type, const std::str
                          const std::vector<T>& values) {
   pugi::xml_node array = parent.append_child("DataArray");
   array.append_attribute("type") = type;
-  array.append_attribute("Name") = name.c_str();
+  array.append_attribute("Name") = printable(name).c_str();
   array.append_attribute("format") = "binary";
   array.append_child(pugi::node_pcdata).set_value(encoded(values).c_str());
   return array;
@@ -148,7 +149,7 @@ void write_vtu(const std::filesystem::path& path, const VtuMesh& mesh, const std
     pugi::xml_node node = add_array(array.on_cells ? on_cells : on_points, "Float64", array.name, array.values);
     node.append_attribute("NumberOfComponents") = static_cast<unsigned long long>(width_of(array));
     for (std::size_t c = 0; c < array.components.size(); ++c)
-      node.append_attribute(fmt::format("ComponentName{}", c).c_str()) = array.components[c].c_str();
+      node.append_attribute(fmt::format("ComponentName{}", c).c_str()) = printable(array.components[c]).c_str();
   }
   write_file(path, xml_of(document));
 }
@@ -162,7 +163,7 @@ void write_pvd(const std::filesystem::path& path, const std::vector<std::pair<do
     pugi::xml_node step = collection.append_child("DataSet");
     step.append_attribute("timestep") = fmt::format("{}", time).c_str();
     step.append_attribute("part") = 0;
-    step.append_attribute("file") = file.c_str();
+    step.append_attribute("file") = printable(file).c_str();
   }
   write_file(path, xml_of(document));
 }
