@@ -36,7 +36,6 @@ void inside_rectangle(double x, double y, double t, double width, double height,
 
 /// E₁(x), x > 0; 0 where it is smaller than any number.
 double exponential_integral(double x) {
-  [[maybe_unused]] static gsl_error_handler_t* const old = gsl_set_error_handler_off();
   if (std::isinf(x)) return 0;
   gsl_sf_result result{};
   const int status = gsl_sf_expint_E1_e(x, &result);

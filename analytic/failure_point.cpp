@@ -50,7 +50,6 @@ double ceiling(const Whole& whole, real f_max) {
   gsl_function f{Ceiling::missing, &c};
   const std::unique_ptr<gsl_root_fsolver, void (*)(gsl_root_fsolver*)> solver(
       gsl_root_fsolver_alloc(gsl_root_fsolver_brent), gsl_root_fsolver_free);
-  const auto old = gsl_set_error_handler_off();
   double root = std::nan("");
   if (solver && gsl_root_fsolver_set(solver.get(), &f, 0, high) == GSL_SUCCESS) {
     for (int i = 0; i < 200; ++i) {
@@ -61,7 +60,6 @@ double ceiling(const Whole& whole, real f_max) {
         break;
     }
   }
-  gsl_set_error_handler(old);
   return root;
 }
 

@@ -37,7 +37,11 @@ double grid_contact_time(const Approach& a) {
   // Nothing happens before they are 2h apart. Then either crosses a face within the time that closes the rest.
   t = std::max(0.0, (a.right - a.left - 2 * a.cell) / closing * (1 - 1e-12));
   while (!near()) {
-    t = std::min(next_face(a.left, a.left_velocity, a.cell, t), next_face(a.right, a.right_velocity, a.cell, t));
+    const double next =
+        std::min(next_face(a.left, a.left_velocity, a.cell, t), next_face(a.right, a.right_velocity, a.cell, t));
+    if (!(next > t) || !std::isfinite(next))
+      throw std::domain_error("grid_contact_time: the faces that the particles cross are lost in round-off");
+    t = next;
   }
   return t;
 }

@@ -13,7 +13,8 @@ struct Approach {
 /// Seconds until both reach one node: until their cells are the same or next to each other. Linear shape functions see
 /// no further, and the no-slip contact of a single velocity field begins there: while the particles are still between h
 /// and 2h apart, or nearer where both enter the same cell at once. Infinite where they never do. Throws
-/// std::invalid_argument where left ≥ right or the cell is not positive.
+/// std::invalid_argument where left ≥ right or the cell is not positive, std::domain_error where they fly so far or so
+/// slowly that doubles do not tell the faces that they cross.
 double grid_contact_time(const Approach&);
 
 }  // namespace diptych::analytic

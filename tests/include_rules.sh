@@ -38,5 +38,9 @@ only runner/trade 'hinge|analytic|reports|runner/(input|compare|run|draw|trade|p
 only runner/stability 'hinge|analytic|reports|runner/(input|run|draw|trade|stability|panel|diffusion_alone)'
 only runner/ablate 'hinge|analytic|reports|runner/(input|compare|run|trade|ablate|panel|app/case_file)'
 only runner/app 'hinge|analytic|reports|runner'
+# GSL's error handler is one for the whole process: whoever changes it beside other threads changes it for them.
+handlers=$(grep -rlE 'gsl_set_error_handler' analytic fem hinge mpm reports runner tests --include='*.[ch]pp' | sort | tr '\n' ' ')
+[ "$handlers" = 'runner/app/main.cpp tests/main.cpp ' ] ||
+  { echo "main() alone sets GSL's error handler, not: $handlers"; broken=1; }
 echo "$looked files"
 exit "$broken"

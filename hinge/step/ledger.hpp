@@ -99,6 +99,11 @@ class Ledger {
     std::ostringstream text;
     text.precision(3);
     const bool grows = !(magnitude_ <= bound_);
+    if (!std::isfinite(magnitude_) || !std::isfinite(inside_) || !std::isfinite(work_)) {
+      text << "a number is not finite: of the energies held, " << inside_ << ' ' << unit
+           << ", or of the work of loads, " << work_ << ' ' << unit << ": NaN, or larger than a double can hold";
+      return text.str();
+    }
     text << "more energy than was put in: " << (grows ? magnitude_ : inside_) << ' ' << unit << " held or spent, "
          << largest_put_in_ << ' ' << unit << " put in at the most";
     if (grows)

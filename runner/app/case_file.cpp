@@ -2,15 +2,18 @@
 // plate_file.cpp.
 #include "runner/app/case_file.hpp"
 
+#include <fmt/core.h>
+
 #include <cerrno>
 #include <fstream>
 #include <functional>
-#include <sstream>
+#include <ios>
 #include <system_error>
 
 #include "runner/draw/figure_kinds.hpp"
 #include "runner/input/case_tables.hpp"
 #include "runner/input/toml_table.hpp"
+#include "runner/input/toml_tree.hpp"
 #include "runner/judge/gate_file.hpp"
 
 namespace diptych::runner {
@@ -33,6 +36,8 @@ void read_judgement(Table& file, Case& c) {
 Case read_file(Table& file, const std::function<void(Table&, Case&)>& judgement, const std::string& changed) {
   Case c;
   c.changed = changed;
+  if (file.has("plate") && file.has("bar"))  // and all that either lacks would be told of the other
+    throw NotRead(file.place("bar").at, "bar: found beside [plate]; allowed: [bar] or [plate], one scene a case");
   file.need("schema", whole(1, 1));
   c.scene = file.declaration({"schema", "id", "title", "claim", "why", "paper", "gate", "figure"});
   c.id = file.need("id", id());
@@ -63,15 +68,20 @@ Case parsed(const std::string& text, const std::filesystem::path& name,
 
 std::string text_of(const std::filesystem::path& path) {
   const auto fail = [&](const std::string& reason) { throw InputError(path.string() + ": cannot be read: " + reason); };
-  std::error_code status;
-  if (std::filesystem::is_directory(path, status)) fail("it is a directory; allowed: a case file (*.toml)");
+  std::error_code problem;
+  const std::filesystem::file_status status = std::filesystem::status(path, problem);
+  if (std::filesystem::is_directory(status)) fail("it is a directory; allowed: a case file (*.toml)");
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    fail("it is a device, a pipe or a socket; allowed: a case file (*.toml)");
   errno = 0;
   std::ifstream in(path, std::ios::binary);
   if (!in) fail(std::generic_category().message(errno));
-  std::ostringstream text;
-  text << in.rdbuf();
+  std::string text(most_file_bytes + 1, '\0');
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (in.bad()) fail(std::generic_category().message(errno));
-  return text.str();
+  text.resize(static_cast<std::size_t>(in.gcount()));
+  if (text.size() > most_file_bytes) fail(fmt::format("it is larger than {} bytes, the most allowed", most_file_bytes));
+  return text;
 }
 
 }  // namespace

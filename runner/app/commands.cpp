@@ -22,6 +22,7 @@
 #include "runner/app/showing.hpp"
 #include "runner/draw/figure_kinds.hpp"
 #include "runner/input/build.hpp"
+#include "runner/input/leaf.hpp"
 #include "runner/input/plate_build.hpp"
 #include "runner/judge/gates.hpp"
 #include "runner/run/runner.hpp"
@@ -37,13 +38,16 @@ enum class Purpose { judge, show };  // what no gate speaks of is run only to be
 class Failed {
  public:
   explicit Failed(const std::vector<Case>& cases) : cases_(cases) {
-    for (const Case& c : cases) gates_.emplace_back(c.gates.size());
+    for (const Case& c : cases) {
+      gates_.emplace_back(c.gates.size());
+      leaves_.emplace_back(c);
+    }
   }
   void take(std::size_t which, const reports::Run& run) {
     const Case& c = cases_[which];
     for (std::size_t g = 0; g < c.gates.size(); ++g) {
       if (gates_[which][g] || !of_single_numbers(c.gates[g])) continue;
-      reports::Gate gate = judge(c, c.gates[g], {run});
+      reports::Gate gate = judge(c, leaves_[which], c.gates[g], {run});
       if (gate.verdict == reports::Verdict::fail) gates_[which][g] = std::move(gate);
     }
   }
@@ -57,6 +61,7 @@ class Failed {
 
  private:
   const std::vector<Case>& cases_;
+  std::vector<Leaves> leaves_;
   std::vector<std::vector<std::optional<reports::Gate>>> gates_;
 };
 
@@ -86,6 +91,7 @@ std::vector<reports::Case> measure_cases(const std::vector<Case>& cases, const O
   Running running = running_for(options, purpose, cancelled);
   const auto keeping = keeping_of(options);
   running.keeping = keeping.get();
+  running.ahead = warning_of(options, !judge_only);
   Failed failed(cases);
   if (options.fail_fast) {
     running.cheapest_first = true;
@@ -96,13 +102,14 @@ std::vector<reports::Case> measure_cases(const std::vector<Case>& cases, const O
   tell_kept(keeping.get());
   require_all(results, options);
   for (std::size_t i = 0; i < cases.size(); ++i) {
+    const Leaves leaves(cases[i]);
     if (!options.only.empty()) continue;  // gates and figures speak of all runs
     for (std::size_t g = 0; g < cases[i].gates.size(); ++g) {
       const GateSpec& gate = cases[i].gates[g];
       if (const auto& known = failed.gate(i, g))
         results[i].gates.push_back(*known);
       else if (!cancelled || all_made(cases[i], gate, results[i].runs))
-        results[i].gates.push_back(judge(cases[i], gate, results[i].runs));
+        results[i].gates.push_back(judge(cases[i], leaves, gate, results[i].runs));
     }
     if (!judge_only) add_figures(cases[i], results[i]);
   }

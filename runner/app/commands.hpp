@@ -24,6 +24,7 @@ struct Options {
   bool all = false;                       ///< store prune: all of it
   int threads = 0;                        ///< 0: all there are
   bool quick = false;
+  bool yes = false;        ///< run, gate, explain, paper: also what takes more than an hour
   bool fail_fast = false;  ///< gate: no further runs for a gate that has failed
   bool failed = false;     ///< gate: only gates that did not pass when they were judged last
   bool quiet = false;      ///< gate: only what failed, and the verdict
@@ -47,8 +48,8 @@ struct Options {
   std::vector<std::string> methods;           ///< bench: ids of panels; empty: FEM and MPM, MUSL
   std::vector<double> points{1e4, 1e5, 1e6};  ///< bench: about so many elements or particles
   std::vector<int> counts;                    ///< bench: numbers of threads; empty: one, and all there are
-  bool off = false;          ///< bench: what features cost where they are off
-  bool strict_time = false;  ///< bench --off: the status is not 0 for times, too
+  bool off = false;                           ///< bench: what features cost where they are off
+  bool strict_time = false;                   ///< bench --off: the status is not 0 for times, too
   long steps = 2000;                          ///< stability: of each look-ahead
   double within = 0.01;                       ///< stability: part of theory by which a limit may be off
   std::string pattern;                        ///< test: only the tests whose names it fits

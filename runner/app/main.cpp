@@ -1,4 +1,6 @@
 // The command line: CLI11 reads it, commands.cpp does it.
+#include <gsl/gsl_errno.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
@@ -8,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "reports/text.hpp"
 #include "runner/app/case_file.hpp"
 #include "runner/app/commands.hpp"
 #include "runner/judge/gates.hpp"
@@ -27,6 +30,8 @@ void on_signal(int number) {
 
 int main(int argc, char** argv) {
   using namespace diptych::runner;
+  // GSL's handler is one for the whole process and would end it: here, before there are threads, and nowhere else.
+  gsl_set_error_handler_off();
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
   std::signal(SIGHUP, on_signal);
@@ -42,6 +47,9 @@ int main(int argc, char** argv) {
   const auto add_threads = [&](CLI::App* command) {
     command->add_option("-j,--jobs", options.threads, "threads; the results do not depend on it")
         ->check(CLI::Range(1, 1024));
+  };
+  const auto add_yes = [&](CLI::App* command) {
+    command->add_flag("--yes", options.yes, "also begin what takes more than an hour, by a rough estimate");
   };
   const auto add_out = [&](CLI::App* command) {
     command->add_option("--out", options.out, "directory for results")->capture_default_str();
@@ -63,6 +71,7 @@ int main(int argc, char** argv) {
   auto* paper = app.add_subcommand("paper", "write the paper's figures, their data and tables, and judge their cases");
   paper->add_option("FIGURE", options.selectors, "fig1, fig2, fig3, ...; all without one");
   add_out(paper);
+  add_yes(paper);
   add_threads(paper);
   add_store(paper);
   paper->callback([&] { status = paper_command(options, cancelled); });
@@ -87,6 +96,7 @@ int main(int argc, char** argv) {
       ->allow_extra_args(false);
   run->add_flag("--fields", options.fields,
                 "also write all fields at the sample times: of plates VTU and PVD, for ParaView, of bars CSV");
+  add_yes(run);
   add_threads(run);
   add_store(run);
   run->callback([&] {
@@ -209,12 +219,14 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 10'000));
   gate->add_option("--json", options.json, "also write results to this file (JSON lines)");
   gate->add_option("--junit", options.junit, "also write verdicts to this file (JUnit XML)");
+  add_yes(gate);
   add_threads(gate);
   add_store(gate);
   gate->callback([&] { status = gate_command(options, cancelled); });
 
   auto* explain = app.add_subcommand("explain", "formula, numbers, prediction and margin of a gate");
   explain->add_option("GATE", options.selectors, "CASE/GATE")->required();
+  add_yes(explain);
   add_threads(explain);
   add_store(explain);
   explain->callback([&] { status = explain_command(options, cancelled); });
@@ -274,10 +286,10 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     status = app.exit(error) == 0 ? all_passed : usage;
   } catch (const InputError& error) {
-    std::fprintf(stderr, "%s\n", error.what());
+    std::fprintf(stderr, "%s\n", diptych::reports::printable(error.what()).c_str());
     return usage;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "diptych: %s\n", error.what());
+    std::fprintf(stderr, "diptych: %s\n", diptych::reports::printable(error.what()).c_str());
     return unstable_or_error;
   }
   // A verdict that could not be written was not given.

@@ -1,6 +1,11 @@
 // What a case says, as the program has read it: `diptych show`.
 #include <fmt/core.h>
 
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "reports/text.hpp"
 #include "runner/app/catalogue.hpp"
 #include "runner/app/commands.hpp"
 #include "runner/app/showing.hpp"
@@ -9,6 +14,7 @@
 #include "runner/input/messages.hpp"
 #include "runner/input/plate_build.hpp"
 #include "runner/judge/gates.hpp"
+#include "runner/run/run_leaf.hpp"
 
 namespace diptych::runner {
 namespace {
@@ -22,18 +28,31 @@ std::string timing(const LoadSpec& load) {
   return text;
 }
 
+/// ", 1.2e+09 steps, about 3 min", or nothing where the run cannot be begun, which `run` explains.
+std::string what_it_takes(const Case& c, const Leaf& leaf) {
+  try {
+    const auto own = case_of(c, leaf);
+    const Outlook ahead = outlook(*own, leaf);
+    return fmt::format(", {:.3g} steps, {}", ahead.steps(),
+                       duration_words(ahead.seconds(describe(*own, leaf).unknowns)));
+  } catch (const std::exception&) {
+    return "";
+  }
+}
+
 void show_runs(const Case& c) {
-  print("  runs       {}\n", leaves(c).size());
-  for (const Leaf& leaf : leaves(c)) {
-    print("             {} {} cells, Courant {:g}{}{}\n", leaf.method, leaf.cells, leaf.courant,
+  const std::vector<Leaf> all = leaves(c);
+  print("  runs       {}\n", all.size());
+  for (const Leaf& leaf : all) {
+    print("             {} {} cells, Courant {:g}{}{}{}\n", leaf.method, leaf.cells, leaf.courant,
           leaf.particles.empty() ? "" : ", particles at " + particles_label(leaf.particles),
-          parameters_label(leaf).empty() ? "" : ", " + parameters_label(leaf));
+          parameters_label(leaf).empty() ? "" : ", " + parameters_label(leaf), what_it_takes(c, leaf));
   }
 }
 
 void show_plate(const Case& c) {
-  print("{}: {}\n  file       {}\n  claim      {}\n  why        {}\n  plate      {}\n", c.id, c.title, c.path.string(),
-        c.claim, c.why, words_of(*c.plate));
+  print("{}: {}\n  file       {}\n  claim      {}\n  why        {}\n  plate      {}\n", c.id, c.title,
+        reports::printable(c.path.string()), c.claim, c.why, words_of(*c.plate));
   if (c.plate->solid) {
     print("  supports  ");
     for (std::size_t side = 0; side < 4; ++side)
@@ -60,7 +79,8 @@ void show_plate(const Case& c) {
 
 void show_bars(const Case& c) {
   const auto end_text = [](Support s) { return s == Support::fixed ? "fixed" : "free"; };
-  print("{}: {}\n  file       {}\n  claim      {}\n  why        {}\n", c.id, c.title, c.path.string(), c.claim, c.why);
+  print("{}: {}\n  file       {}\n  claim      {}\n  why        {}\n", c.id, c.title,
+        reports::printable(c.path.string()), c.claim, c.why);
   for (std::size_t b = 0; b < c.bars.size(); ++b) {
     const BarSpec& bar = c.bars[b];
     print("  bar        {}, wave speed {:g}{}{}\n", words_of(bar), material::wave_speed(bar.material),

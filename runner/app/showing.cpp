@@ -33,6 +33,24 @@ std::function<void(std::size_t, std::size_t)> progress() {
   };
 }
 
+std::string duration_words(double seconds) {
+  if (seconds < 1) return "less than a second";
+  if (seconds < 100) return fmt::format("about {:.0f} s", seconds);
+  if (seconds < 6000) return fmt::format("about {:.0f} min", seconds / 60);
+  if (seconds < 3 * 86400) return fmt::format("about {:.1f} h", seconds / 3600);
+  return fmt::format("about {:.3g} days", seconds / 86400);
+}
+
+std::function<void(const Ahead&)> warning_of(const Options& options, bool aloud) {
+  return [yes = options.yes, aloud](const Ahead& ahead) {
+    const std::string what = fmt::format("{} runs of {:.3g} steps in all, {:.3g} at the most of one: {}", ahead.runs,
+                                         ahead.steps, ahead.most_steps, duration_words(ahead.seconds));
+    if (aloud) tell("{}\n", what);
+    constexpr double hour = 3600;
+    if (ahead.seconds > hour && !yes) throw InputError(what + "; allowed: at most an hour, or with --yes");
+  };
+}
+
 void prepare(const std::filesystem::path& out, const std::string& option) {
   std::error_code problem;
   std::filesystem::create_directories(out, problem);

@@ -15,6 +15,7 @@
 #include "reports/results.hpp"
 #include "runner/app/commands.hpp"
 #include "runner/input/case.hpp"
+#include "runner/run/run_leaf.hpp"
 
 namespace diptych::runner {
 
@@ -40,6 +41,11 @@ std::function<void(std::size_t done, std::size_t total)> progress();
 /// A file that is to be written must not be one that is read, nor a folder: throws InputError before a run is paid for.
 /// option: "--json".
 void prepare_file(const std::string& option, const std::filesystem::path&, const std::vector<Case>&);
+/// "about 40 s", "about 3 min", "about 2.5 h", "about 12 days", and what is less than a second.
+std::string duration_words(double seconds);
+/// Tells on standard error what runs will take, where `aloud`; throws InputError where that is more than an hour and
+/// nobody has said --yes.
+std::function<void(const Ahead&)> warning_of(const Options&, bool aloud);
 
 /// Where results are to go must take them before the runs are paid for: throws InputError where it does not.
 void prepare(const std::filesystem::path& out, const std::string& option = "--out");

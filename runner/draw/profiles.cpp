@@ -43,6 +43,11 @@ void draw_profiles(const Case& c, const FigureSpec& spec, reports::Case& result)
   figure.y_min = figure.y_max = 0;
   figure.x_label = fmt::format("{}x [{}]", moves ? "position " : "", length_unit(c));
   figure.y_label = fmt::format("{} {} [{}]", field, symbol_of(field), unit_of(c, field));
+  const ExactSpec& exact = c.exact;
+  if (moves && exact.solution == "expressions" && exact.displacement.empty() &&
+      !(field == "stress" ? exact.stress : exact.velocity).empty())
+    figure.notes.push_back(
+        "The exact solution is not drawn: [exact] gives no displacement, which says where its points have moved to.");
   figure.x_max = begins_of(c, spec.cells).back() + c.bars.back().length;
   const auto& times = spec.times.empty() ? c.times : spec.times;
   for (std::size_t i = 0; i < times.size(); ++i) {

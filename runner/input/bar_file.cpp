@@ -247,7 +247,12 @@ void read_bar_case(Table& file, Case& c) {
     c.bars[b].velocity.clear();
     bars_are_read = false;
   }
-  if (bars_are_read) check_bars(file.place("bar"), c);
+  before = file.mistakes();
+  if (bars_are_read) {
+    check_bars(file.place("bar"), c);
+    check_approach(file.place("bar"), c);
+  }
+  bars_are_read = bars_are_read && file.mistakes() == before;
   file.table("sample", [&](Table& t) { read_sample(t, c, bars_are_read); });
   file.table("supports", with(read_supports));
 

@@ -230,10 +230,19 @@ Scene make_scene(const Case& c, int cells) {
   scene.convected = c.convected;
   for (const LoadSpec& load : c.loads) scene.loads.push_back(make_load(c, load, cells));
   const auto all = expression_constants(c);
-  if (!c.body_force.empty()) scene.body_force = Expression(c.body_force, {"x", "t"}, all);
+  if (!c.body_force.empty())
+    scene.body_force = [f = Expression(c.body_force, {"x", "t"}, all)](double x, double t) {
+      return finite_value("body_force", f, x, t);
+    };
   for (Bar& bar : scene.bars) {
-    if (!c.initial_velocity.empty()) bar.initial_velocity = Expression(c.initial_velocity, {"x"}, all);
-    if (!c.initial_stress.empty()) bar.initial_stress = Expression(c.initial_stress, {"x"}, all);
+    if (!c.initial_velocity.empty())
+      bar.initial_velocity = [f = Expression(c.initial_velocity, {"x"}, all)](double x) {
+        return finite_value("initial.velocity", f, x);
+      };
+    if (!c.initial_stress.empty())
+      bar.initial_stress = [f = Expression(c.initial_stress, {"x"}, all)](double x) {
+        return finite_value("initial.stress", f, x);
+      };
   }
   if (c.exact.solution == "standing-mode") scene.bars[0].initial_velocity = mode_velocity(c);
   return scene;

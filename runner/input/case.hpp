@@ -68,6 +68,7 @@ struct Axes {
   std::vector<std::vector<double>> particles{{0.5}};      ///< natural coordinates ξ in [0, 1], ascending, at least one
   std::map<std::string, std::vector<double>> parameters;  ///< swept ones of [parameters]
   std::vector<std::string> variant{""};                   ///< of a plate; "" is the case as it stands
+  unsigned line = 0;                                      ///< of `courant` in the file
 };
 
 /// Restricts a gate to some values of the axes; an empty list is no restriction.

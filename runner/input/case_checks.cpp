@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "runner/input/build.hpp"
 #include "runner/input/constants.hpp"
@@ -12,6 +13,8 @@
 
 namespace diptych::runner {
 namespace {
+
+constexpr double most_cells_in_a_row = 1e7;  // as many as axes.cells may have
 
 bool bar_is_known(const Case& c) {
   const double speed = material::wave_speed(c.first().material);
@@ -49,12 +52,10 @@ std::map<std::string, std::string> features_in_use(const Case& c) {
 
 std::vector<Case> cases_of_runs(const Case& c) {
   std::vector<Case> all;
-  std::vector<Parameters> seen;
-  for (const Leaf& leaf : leaves(c)) {
-    if (std::find(seen.begin(), seen.end(), leaf.parameters) != seen.end()) continue;
-    seen.push_back(leaf.parameters);
-    all.push_back(with_parameters(c, leaf));
-  }
+  std::set<Parameters> seen;
+  const Case bare = without_axes(c);
+  for (const Leaf& leaf : leaves(c))
+    if (seen.insert(leaf.parameters).second) all.push_back(with_parameters(bare, leaf));
   if (all.empty()) all.push_back(c);
   return all;
 }
@@ -141,9 +142,30 @@ void check_bars(const Place& place, const Case& c) {
       const double size = c.bars[b].length / h;
       if (std::abs(size - std::round(size)) <= 1e-9 * size && std::round(size) >= 1) continue;
       place.say(
-          fmt::format("found bar {} of length {}, which is {:g} cells where the first bar has {}; allowed: whole "
-                      "numbers of cells, all of one size",
+          fmt::format("found bar {} of length {}, which is {:.10g} cells where the first bar has {}; allowed: whole "
+                      "numbers of cells, all of one size, to a part of 1e-9",
                       b + 1, c.bars[b].length, size, cells));
+      return;
+    }
+    const double row = (begins_of(c, cells).back() + c.bars.back().length) / h;
+    if (row <= most_cells_in_a_row) continue;
+    place.say(fmt::format("found bars and gaps of {:g} cells in all; allowed: at most {:g}", row, most_cells_in_a_row));
+    return;
+  }
+}
+
+void check_approach(const Place& place, const Case& c) {
+  if (c.bars.size() == 1 || !bar_is_known(c)) return;
+  for (const Case& variant : cases_of_runs(c)) {
+    for (std::size_t b = 1; b < c.bars.size(); ++b) {
+      const double before = velocity_of(variant, b - 1), after = velocity_of(variant, b), closing = before - after;
+      const double least = std::max(1e-12 * material::wave_speed(c.first().material),
+                                    1e-6 * std::max(std::abs(before), std::abs(after)));
+      if (closing <= 0 || closing >= least) continue;
+      place.say(
+          fmt::format("found bars {} and {} that close in at {:g}; allowed: at rest to each other, or at least {:g}, "
+                      "1e-12 of the wave speed and 1e-6 of what they move at",
+                      b, b + 1, closing, least));
       return;
     }
   }
@@ -174,12 +196,11 @@ void check_contact(const Place& place, const Case& c) {
 
 void check_times(const Place& place, const Case& c) {
   if (!bar_is_known(c) || c.axes.empty() || c.times.empty()) return;
-  for (const Case& variant : cases_of_runs(c)) {
-    for (const Leaf& leaf : leaves(c)) {
-      if (instant(variant, leaf, c.times.front()) > 0) continue;
-      place.refuse(words(c.times.front()) + ", which is before the start in some run", "times after the start");
-      return;
-    }
+  const Case bare = without_axes(c);
+  for (const Leaf& leaf : leaves(c)) {
+    if (instant(with_parameters(bare, leaf), leaf, c.times.front()) > 0) continue;
+    place.refuse(words(c.times.front()) + ", which is before the start in some run", "times after the start");
+    return;
   }
 }
 

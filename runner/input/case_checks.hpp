@@ -35,6 +35,8 @@ bool check_constant(const Place&, const std::string& formula, const Case&);
 void check_not_negative(const Place&, const std::string& formula, const Case&);
 /// Bars that fit one grid in every run, and velocities beside [initial].
 void check_bars(const Place& bar, const Case&);
+/// Bars that close in so slowly that the time of their contact would be lost in round-off, or be looked for too long.
+void check_approach(const Place& bar, const Case&);
 void check_in_some_bar(const Place&, const Measured& at, const Case&);
 /// Times from contact need bars that close in, in every run, and must lie after the start.
 void check_contact(const Place& from, const Case&);

@@ -143,6 +143,7 @@ Axes read_axes(Table& t, const Case& c, const Names& known_methods,
                const std::vector<std::vector<double>>& usual_particles) {
   Axes axes;
   axes.particles = usual_particles;
+  axes.line = t.place("courant").at.line;
   axes.method = t.need("method", set_of(one_of(known_methods)));
   axes.cells = t.need("cells", set_of(number_of_cells()));
   axes.courant =
@@ -154,6 +155,21 @@ Axes read_axes(Table& t, const Case& c, const Names& known_methods,
   return axes;
 }
 
+/// Of all blocks, those that two of them share counted twice: a double, so that no product is too large for it.
+double number_of_runs(const std::vector<AxesBlock>& blocks) {
+  double all = 0;
+  for (const AxesBlock& block : blocks) {
+    const Axes& axes = block.axes;
+    double runs = 1;
+    for (const std::size_t values :
+         {axes.method.size(), axes.cells.size(), axes.courant.size(), axes.particles.size(), axes.variant.size()})
+      runs *= static_cast<double>(values);
+    for (const auto& [name, values] : axes.parameters) runs *= static_cast<double>(values.size());
+    all += runs;
+  }
+  return all;
+}
+
 }  // namespace
 
 std::vector<AxesBlock> read_all_axes(Table& file, Case& c, const Names& known_methods,
@@ -163,6 +179,9 @@ std::vector<AxesBlock> read_all_axes(Table& file, Case& c, const Names& known_me
   file.one_or_each("axes", [&](Table& t) {
     blocks.push_back({read_axes(t, c, known_methods, usual_particles), t.place("method"), t.place("courant")});
   });
+  constexpr double most_runs = 10'000;
+  if (const double runs = number_of_runs(blocks); runs > most_runs)
+    file.place("axes").say(fmt::format("found {:g} runs; allowed: at most {:g} runs of a case", runs, most_runs));
   if (file.mistakes() == before)  // nothing is compared with axes that are not known
     for (const AxesBlock& block : blocks) c.axes.push_back(block.axes);
   return blocks;

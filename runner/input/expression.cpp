@@ -163,4 +163,11 @@ double Expression::operator()(double first, double second, double third) const {
   return impl_->parser.Eval();
 }
 
+void Expression::refuse(const char* of, double value, const std::vector<double>& at) const {
+  Names where;
+  for (std::size_t i = 0; i < at.size(); ++i) where.push_back(impl_->variables[i] + " = " + words(at[i]));
+  throw InputError(fmt::format("{}: found {}, which is {} at {}; allowed: finite values", of, words(impl_->formula),
+                               std::isnan(value) ? "NaN" : words(value), listed(where)));
+}
+
 }  // namespace diptych::runner

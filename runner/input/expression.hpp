@@ -1,6 +1,7 @@
 // Expressions of x, y and t in case files (muParser behind a plain header).
 #pragma once
 
+#include <cmath>
 #include <map>
 #include <memory>
 #include <string>
@@ -29,9 +30,21 @@ class Expression {
   double operator()(double first, double second) const;                ///< for two
   double operator()(double first, double second, double third) const;  ///< for three
 
+  /// Throws InputError: that this value of `of` at this place is none that a solver can take.
+  [[noreturn]] void refuse(const char* of, double value, const std::vector<double>& at) const;
+
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// The value of an expression that a solver is given: throws InputError, naming `of`, the formula and the place, where
+/// it is no finite number. A run would end of it later and elsewhere, as one whose energy grows.
+template <class... Numbers>
+double finite_value(const char* of, const Expression& f, Numbers... at) {
+  const double value = f(at...);
+  if (!std::isfinite(value)) f.refuse(of, value, {at...});
+  return value;
+}
 
 }  // namespace diptych::runner

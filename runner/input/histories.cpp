@@ -35,7 +35,10 @@ std::function<double(double, double)> mean_over(const LoadHistory& h) {
 }
 
 std::function<double(double, double)> mean_over(const Expression& f) {
-  return [f](double from, double to) { return (f(from) + 4 * f((from + to) / 2) + f(to)) / 6; };
+  return [f](double from, double to) {
+    const auto at = [&](double t) { return finite_value("load", f, t); };
+    return (at(from) + 4 * at((from + to) / 2) + at(to)) / 6;
+  };
 }
 
 }  // namespace diptych::runner

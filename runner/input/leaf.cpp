@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <set>
 
 #include "runner/input/messages.hpp"
 
@@ -30,6 +31,11 @@ std::vector<Parameters> combinations(const std::map<std::string, std::vector<dou
   return all;
 }
 
+std::string labels_of(const std::string& method, int cells, double courant, const std::string& particles,
+                      const std::string& parameters) {
+  return fmt::format("{}|{}|{}|{}|{}", method, cells, courant, particles, parameters);
+}
+
 }  // namespace
 
 SceneKind kind_of(const Case& c) {
@@ -38,8 +44,9 @@ SceneKind kind_of(const Case& c) {
 
 std::vector<Leaf> leaves(const Case& c) {
   std::vector<Leaf> all;
-  const auto add = [&](Leaf leaf) {
-    if (std::find(all.begin(), all.end(), leaf) == all.end()) all.push_back(std::move(leaf));
+  std::set<Leaf> known;
+  const auto add = [&](const Leaf& leaf) {
+    if (known.insert(leaf).second) all.push_back(leaf);
   };
   for (const Axes& block : c.axes) {
     for (const auto& method : block.method) {
@@ -80,7 +87,15 @@ Case with_parameters(Case c, const Leaf& leaf) {
 std::shared_ptr<const Case> case_of(const Case& c, const Leaf& leaf) {
   const bool itself = leaf.parameters.empty() && leaf.variant.empty() && !(c.plate && c.plate->rows > 0);
   if (itself) return {std::shared_ptr<const Case>(), &c};
-  return std::make_shared<const Case>(with_parameters(c, leaf));
+  return std::make_shared<const Case>(with_parameters(without_axes(c), leaf));
+}
+
+Case without_axes(const Case& c) {
+  Case bare = c;
+  bare.axes.clear();
+  std::erase_if(bare.scene, [](const auto& declared) { return declared.first.starts_with("axes"); });
+  for (GateSpec& gate : bare.gates) gate.declaration.clear();
+  return bare;
 }
 
 std::string parameters_label(const Parameters& parameters) {
@@ -95,5 +110,18 @@ std::string parameters_label(const Leaf& leaf) {
 }
 
 std::string particles_label(const std::vector<double>& positions) { return listed(positions, " "); }
+
+Leaves::Leaves(const Case& c) : all_(leaves(c)) {
+  for (std::size_t i = 0; i < all_.size(); ++i) {
+    const Leaf& one = all_[i];
+    by_label_.try_emplace(
+        labels_of(one.method, one.cells, one.courant, particles_label(one.particles), parameters_label(one)), i);
+  }
+}
+
+const Leaf* Leaves::of(const reports::Run& run) const {
+  const auto found = by_label_.find(labels_of(run.method, run.cells, run.courant_asked, run.particles, run.parameters));
+  return found == by_label_.end() ? nullptr : &all_[found->second];
+}
 
 }  // namespace diptych::runner

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "reports/text.hpp"
+
 namespace diptych::runner {
 namespace {
 
@@ -50,10 +52,12 @@ std::string words(const std::string& text) {
       out += "\\r";
     else if (c == '"' || c == '\\')
       (out += '\\') += c;
+    else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F)
+      out += fmt::format("\\u{:04X}", static_cast<unsigned>(c));
     else
       out += c;
   }
-  return out + '"';
+  return reports::printable(out) + '"';
 }
 
 std::string words(const std::vector<double>& values) { return '[' + joined(values) + ']'; }

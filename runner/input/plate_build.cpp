@@ -26,14 +26,14 @@ std::function<Vector(double, double, double)> vector_of_xyt(const Pair& pair, co
   if (pair[0].empty() && pair[1].empty()) return {};
   return [fx = *compiled(pair[0], {"x", "y", "t"}, c), fy = *compiled(pair[1], {"x", "y", "t"}, c)](double x, double y,
                                                                                                     double t) {
-    return Vector{fx(x, y, t), fy(x, y, t)};
+    return Vector{finite_value("body_force", fx, x, y, t), finite_value("body_force", fy, x, y, t)};
   };
 }
 
 std::function<Vector(double, double)> vector_of_xy(const Pair& pair, const Case& c) {
   if (pair[0].empty() && pair[1].empty()) return {};
   return [fx = *compiled(pair[0], {"x", "y"}, c), fy = *compiled(pair[1], {"x", "y"}, c)](double x, double y) {
-    return Vector{fx(x, y), fy(x, y)};
+    return Vector{finite_value("initial", fx, x, y), finite_value("initial", fy, x, y)};
   };
 }
 

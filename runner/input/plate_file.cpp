@@ -67,6 +67,9 @@ void read_shape(Table& t, Case& c) {
   }
   plate.height = t.need("height", positive());
   plate.cell_aspect = t.get("cell_aspect", positive(), plate.cell_aspect);
+  constexpr double longest = 1e6;
+  if (plate.cell_aspect > longest || plate.cell_aspect * longest < 1)
+    t.place("cell_aspect").refuse(words(plate.cell_aspect), "1e-6 to 1e6, the height of a cell over its width");
 }
 
 /// Of anything, in a scene without a material.
@@ -379,6 +382,12 @@ void check_meshes(const Place& place, const Case& c) {
     if (!(up * cells <= most)) {  // before it is made a whole number
       place.say(fmt::format("found {} × {:g} cells; allowed: at most {:g}", cells, up, most));
     }
+    const auto* cracking = c.plate->cracking();
+    const auto* diffusion = cracking && cracking->evolution.diffusion ? &*cracking->evolution.diffusion : nullptr;
+    const double cell = c.plate->width / cells, least = 1e-3 * cell;
+    if (diffusion && diffusion->source == diffusion::Source::zone && diffusion->radius > 0 && diffusion->radius < least)
+      place.say(fmt::format("found a source of radius {:g} on {} cells; allowed: at least {:g}, a thousandth of a cell",
+                            diffusion->radius, cells, least));
   }
 }
 

@@ -1,7 +1,6 @@
 #include "runner/input/toml_table.hpp"
 
 #include <fmt/core.h>
-#include <toml++/toml.h>
 
 #include <cmath>
 #include <cstddef>
@@ -10,26 +9,6 @@
 
 namespace diptych::runner {
 namespace {
-
-Position position(toml::source_position at) { return {at.line, at.column}; }
-
-Node copied(const toml::node& node) {
-  Node copy{position(node.source().begin), {}};
-  if (const auto* text = node.as_string()) copy.value = text->get();
-  if (const auto* whole = node.as_integer()) copy.value = whole->get();
-  if (const auto* number = node.as_floating_point()) copy.value = number->get();
-  if (const auto* flag = node.as_boolean()) copy.value = flag->get();
-  if (const auto* array = node.as_array()) {
-    auto& list = copy.value.emplace<Node::List>();
-    for (const toml::node& one : *array) list.push_back(copied(one));
-  }
-  if (const auto* table = node.as_table()) {
-    auto& entries = copy.value.emplace<Node::Entries>();
-    for (const auto& [key, value] : *table)  // toml++ keeps tables sorted by key
-      entries.push_back({std::string(key.str()), position(key.source().begin), copied(value)});
-  }
-  return copy;
-}
 
 /// Keys whose texts are only for reading. (A parameter of that name is a number.)
 bool is_prose(const Node::Entry& entry) {
@@ -142,26 +121,6 @@ Rule<std::string> string_of(const std::string& allowed, bool (*good)(const std::
 
 // ---- values and their places ----------------------------------------------------------------------------------------
 
-std::optional<double> Node::number() const {
-  constexpr std::int64_t largest = std::int64_t{1} << 53;
-  if (const auto* one = as<double>()) return *one;
-  const auto* whole = as<std::int64_t>();
-  if (!whole || *whole < -largest || *whole > largest) return {};
-  return static_cast<double>(*whole);
-}
-
-std::string words(const Node& node) {
-  if (const auto* text = node.as<std::string>()) return words(*text);
-  if (const auto* whole = node.as<std::int64_t>()) return std::to_string(*whole);
-  if (const auto* flag = node.as<bool>()) return *flag ? "true" : "false";
-  if (const auto* number = node.as<double>()) {
-    const std::string text = words(*number);
-    return text.find_first_not_of("-0123456789") == std::string::npos ? text + ".0" : text;
-  }
-  if (const auto* list = node.as<Node::List>()) return list->empty() ? "an empty list" : "a list";
-  return node.as<Node::Entries>() ? "a table" : "a date or time";
-}
-
 void apply(const Change& change, Node& root, Position position) {
   Node* at = &root;
   std::string rest = change.key, before;
@@ -197,19 +156,6 @@ void apply(const Change& change, Node& root, Position position) {
     before += part + '.';
   }
   if (change.value) *at = *change.value;
-}
-
-Node value_in(const std::string& text) {
-  try {
-    const toml::table parsed = toml::parse("value = " + text);
-    if (parsed.size() == 1) {
-      Node value = copied(*parsed.get("value"));
-      value.at = {};
-      return value;
-    }
-  } catch (const toml::parse_error&) {  // a text without quotes
-  }
-  return {{}, text};
 }
 
 void Place::say(const std::string& message) const { mistakes->push_back({at, label + ": " + message}); }
@@ -265,9 +211,12 @@ Rule<std::string> text(const std::string& allowed) {
 }
 
 Rule<std::string> id() {
-  return string_of("a name in quotes of a-z, 0-9, \".\" and \"-\"", [](const std::string& value) {
-    return !value.empty() && value.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789.-") == value.npos;
-  });
+  return string_of("a name in quotes of at most 80 of a-z, 0-9, \".\" and \"-\" that begins with a letter or a digit",
+                   [](const std::string& value) {
+                     constexpr const char* inside = "abcdefghijklmnopqrstuvwxyz0123456789.-";
+                     return !value.empty() && value.size() <= 80 && value[0] != '.' && value[0] != '-' &&
+                            value.find_first_not_of(inside) == value.npos;
+                   });
 }
 
 Rule<std::string> one_of(const Names& names, const std::string& hint) {
@@ -383,13 +332,13 @@ void read_toml(const std::string& toml, const std::string& name, const Table::Re
                const std::vector<Change>& changes) {
   std::vector<Mistake> mistakes;
   try {
-    Node root = copied(toml::parse(toml));
+    Node root = tree_of(toml);
     for (const Change& change : changes) apply(change, root);
     Table table({&mistakes, &root, {1, 1}, "file"}, "");
     read(table);
     table.refuse_other_keys();
-  } catch (const toml::parse_error& error) {
-    mistakes.push_back({position(error.source().begin), "not TOML: " + std::string(error.description())});
+  } catch (const NotRead& why) {
+    mistakes.push_back({why.at, why.what()});
   }
   for (Mistake& one : mistakes) one.at = {std::max(1u, one.at.line), std::max(1u, one.at.column)};
   std::stable_sort(mistakes.begin(), mistakes.end(), [](const Mistake& a, const Mistake& b) { return a.at < b.at; });

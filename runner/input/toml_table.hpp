@@ -1,4 +1,4 @@
-// Reading tables of a TOML file by rules (toml++ behind a plain header). Every mistake becomes a message that names the
+// Reading tables of a TOML file by rules . Every mistake becomes a message that names the
 // place, the key, what was found and what is allowed. None stops the reading, which goes on with an empty value that
 // later checks pass over: one run shows a user all there is to correct.
 #pragma once
@@ -16,45 +16,14 @@
 
 #include "runner/input/declaration.hpp"
 #include "runner/input/messages.hpp"
+#include "runner/input/toml_tree.hpp"
 
 namespace diptych::runner {
-
-struct Position {
-  unsigned line = 0, column = 0;  ///< from 1; 0 where it is not known
-  auto operator<=>(const Position&) const = default;
-};
 
 struct Mistake {
   Position at;
   std::string message;
 };
-
-/// A value of the file.
-struct Node {
-  struct Entry;
-  using List = std::vector<Node>;
-  using Entries = std::vector<Entry>;  ///< of a table, sorted by key
-  using DateOrTime = std::monostate;
-  Position at;
-  std::variant<DateOrTime, bool, std::int64_t, double, std::string, List, Entries> value;
-
-  template <class Value>
-  const Value* as() const {
-    return std::get_if<Value>(&value);
-  }
-  bool is_number() const { return as<double>() || as<std::int64_t>(); }
-  std::optional<double> number() const;  ///< none where a whole number is too large for a double to be exact
-};
-struct Node::Entry {
-  std::string key;
-  Position at;  ///< of the key
-  Node value;
-};
-
-/// A value as found in the file.
-std::string words(const Node&);
-/// A value as it would be read from a file, where quotes around a text may be left out: 0.3, 5, true, rkl2.
-Node value_in(const std::string& text);
 
 /// A key of a file, as list --declarations writes it, with the value that it is to have instead of what it has; without
 /// a value the key is taken out.

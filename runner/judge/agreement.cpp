@@ -17,6 +17,7 @@
 #include "runner/input/case_checks.hpp"
 #include "runner/input/case_tables.hpp"
 #include "runner/input/toml_table.hpp"
+#include "runner/judge/bound.hpp"
 #include "runner/judge/judging.hpp"
 #include "runner/judge/series.hpp"
 
@@ -53,12 +54,14 @@ void check_runs_of_agreement(const Place& place, bool uncertain, const GateSpec&
 
 void read_agreement(Table& t, const Case& c, GateSpec& gate) {
   AgreementCriterion agreement;
-  if (t.has("max") || !t.has("apart")) agreement.max = t.must("max", not_negative());
+  if (t.has("max") || !t.has("apart")) agreement.max = read_tolerance(t, "max", 10, "ten times the uncertainty");
   agreement.judged = t.need("judged", set_of(number_of_cells()));
   among(t.place("judged"), agreement.judged, all_axes(c).cells, "axes.cells");
   agreement.apart = t.get("apart", list_of(positive()));
   if (!agreement.apart.empty() && agreement.apart.size() != agreement.judged.size())
     t.place("apart").refuse(words(agreement.apart), "one part for each mesh of judged, " + listed(agreement.judged));
+  for (const double part : agreement.apart)
+    if (part > 1) t.place("apart").refuse(words(part), "parts of what is compared, at most 1");
   agreement.shrinks = t.get("shrinks", flag(), true);
   if (t.applies("level", "quantity", gate.quantity, {"contour.distance"}))
     agreement.level = t.need("level", positive());

@@ -7,6 +7,12 @@
 
 namespace diptych::runner {
 
+double read_tolerance(Table& t, const std::string& key, double most, const std::string& of) {
+  const double tolerance = t.need(key, not_negative());
+  if (tolerance > most) t.place(key).refuse(words(tolerance), "0 to " + words(most) + ", " + of);
+  return tolerance;
+}
+
 void BoundCriterion::judge(const Case& c, const GateSpec& gate, const std::vector<JudgedRun>& runs,
                            reports::Gate& result) const {
   const auto readings = read(c, gate, runs);

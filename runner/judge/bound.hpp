@@ -2,10 +2,16 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
+#include "runner/input/toml_table.hpp"
 #include "runner/judge/gate_kind.hpp"
 
 namespace diptych::runner {
+
+/// Reads a tolerance, at least 0. Refuses one that is wider than `most`, the size of what it bounds: no value would be
+/// outside. `of` says what that is.
+double read_tolerance(Table&, const std::string& key, double most, const std::string& of);
 
 /// |value| ≤ max, or |value − expect| ≤ max.
 struct BoundCriterion : Criterion {

@@ -19,7 +19,7 @@ Names quantities_of_constant(const Case& c) {
 void read_constant(Table& t, const Case& c, GateSpec& gate) {
   RatioCriterion measured;
   measured.theory = t.need("predict", one_of(theories(c)));
-  measured.ratio = t.need("ratio", interval(positive()));
+  measured.ratio = read_ratio(t);
   const Place predict = t.place("predict");
   const bool of_scheme = measured.theory == "impact-lattice" || (c.plate && measured.theory == "mode");
   if (of_scheme) check_scheme_theory(predict, measured.theory, gate, c);

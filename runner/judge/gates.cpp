@@ -17,17 +17,13 @@ using reports::Gate;
 using reports::Run;
 using reports::Verdict;
 
-/// The runs that the gate speaks of. A run knows its place in the sweep by its labels alone, so it is looked up here,
-/// once a gate.
-std::vector<JudgedRun> runs_judged(const Case& c, const GateSpec& gate, const std::vector<Run>& runs) {
-  const std::vector<Leaf> all = leaves(c);
+/// The runs that the gate speaks of.
+std::vector<JudgedRun> runs_judged(const Case& c, const Leaves& leaves, const GateSpec& gate,
+                                   const std::vector<Run>& runs) {
   std::vector<JudgedRun> judged;
   for (const Run& run : runs) {
-    const auto leaf = std::find_if(all.begin(), all.end(), [&](const Leaf& one) {
-      return one.method == run.method && one.cells == run.cells && one.courant == run.courant_asked &&
-             particles_label(one.particles) == run.particles && parameters_label(one) == run.parameters;
-    });
-    if (leaf == all.end()) throw std::logic_error("run " + run.label() + " is not one of case " + c.id);
+    const Leaf* leaf = leaves.of(run);
+    if (!leaf) throw std::logic_error("run " + run.label() + " is not one of case " + c.id);
     if (matches(gate.where, *leaf)) judged.push_back({&run, *leaf});
   }
   return judged;
@@ -37,7 +33,7 @@ Verdict worst(Verdict a, Verdict b) { return std::max(a, b); }
 
 }  // namespace
 
-Gate judge(const Case& c, const GateSpec& gate, const std::vector<Run>& runs) {
+Gate judge(const Case& c, const Leaves& leaves, const GateSpec& gate, const std::vector<Run>& runs) {
   Gate result;
   result.case_id = c.id;
   result.id = gate.id;
@@ -46,7 +42,7 @@ Gate judge(const Case& c, const GateSpec& gate, const std::vector<Run>& runs) {
   result.reason = gate.reason;
   result.line = gate.line;
   try {
-    if (gate.criterion) gate.criterion->judge(c, gate, runs_judged(c, gate, runs), result);
+    if (gate.criterion) gate.criterion->judge(c, gate, runs_judged(c, leaves, gate, runs), result);
   } catch (const Stop& stop) {
     result.verdict = stop.verdict;
     result.message = stop.message;
@@ -67,6 +63,10 @@ Gate judge(const Case& c, const GateSpec& gate, const std::vector<Run>& runs) {
   return result;
 }
 
+Gate judge(const Case& c, const GateSpec& gate, const std::vector<Run>& runs) {
+  return judge(c, Leaves(c), gate, runs);
+}
+
 std::string explanation(const Case& c, const Gate& gate) {
   std::string text = fmt::format(
       "{}/{}: {}\n  {}\n  case        {}\n  declared    {}:{}\n  kind        {}: {}\n  judged      {}\n  why so      "
@@ -85,7 +85,7 @@ std::string explanation(const Case& c, const Gate& gate) {
 bool of_single_numbers(const GateSpec& gate) { return gate.criterion && gate.criterion->of_single_numbers(); }
 
 bool all_made(const Case& c, const GateSpec& gate, const std::vector<Run>& runs) {
-  const std::vector<JudgedRun> judged = runs_judged(c, gate, runs);
+  const std::vector<JudgedRun> judged = runs_judged(c, Leaves(c), gate, runs);
   return std::none_of(judged.begin(), judged.end(),
                       [](const JudgedRun& one) { return one.run->status == "cancelled"; });
 }

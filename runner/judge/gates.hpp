@@ -6,11 +6,14 @@
 
 #include "reports/results.hpp"
 #include "runner/input/case.hpp"
+#include "runner/input/leaf.hpp"
 
 namespace diptych::runner {
 
 /// Judges one gate on the case's runs. A gate that finds nothing to judge is INVALID, never a pass.
 reports::Gate judge(const Case&, const GateSpec&, const std::vector<reports::Run>&);
+/// The same for whoever judges many gates of a case, and has its leaves already.
+reports::Gate judge(const Case&, const Leaves&, const GateSpec&, const std::vector<reports::Run>&);
 
 /// A judged gate in words: where it is declared, what its kind judges, and each number with what it was held against.
 std::string explanation(const Case&, const reports::Gate&);

@@ -12,7 +12,7 @@ Names quantities_of_invariant(const Case& c) { return quantity_names(c, {Quantit
 
 void read_invariant(Table& t, const Case&, GateSpec& gate) {
   BoundCriterion bound;
-  bound.max = t.need("max", not_negative());
+  bound.max = read_tolerance(t, "max", 1, "all of what the part is taken of");
   gate.criterion = std::make_shared<BoundCriterion>(bound);
 }
 

@@ -23,7 +23,7 @@ void read_limit(Table& t, const Case& c, GateSpec& gate) {
   RatioCriterion bisected;
   bisected.of_limit = true;
   if (of("predict", "critical_courant")) bisected.theory = t.need("predict", one_of({"stability-limit"}));
-  if (of("ratio", "critical_courant")) bisected.ratio = t.need("ratio", interval(positive()));
+  if (of("ratio", "critical_courant")) bisected.ratio = read_ratio(t);
   const bool above = of("outcome", "stable");
   if (above) t.need("outcome", one_of({"unstable"}));
   gate.steps = t.get("steps", whole(1, 1'000'000'000), static_cast<int>(gate.steps));

@@ -49,6 +49,9 @@ void read_order(Table& t, const Case& c, GateSpec& gate) {
   OrderCriterion slope;
   const auto expect = t.must("expect", any_number());
   const auto band = t.must("band", interval());
+  constexpr double widest = 1;  // orders differ by a half or by one
+  if (band && (*band)[1] - (*band)[0] > widest)
+    t.place("band").refuse(words(std::vector{(*band)[0], (*band)[1]}), "a band at most " + words(widest) + " wide");
   slope.over_time_step = t.get("over", one_of({"cells", "courant"})) == "courant";
   slope.levels_min = t.get("levels_min", whole(3, 100), slope.levels_min);
   slope.expect = expect.value_or(0);

@@ -9,6 +9,15 @@
 
 namespace diptych::runner {
 
+std::array<double, 2> read_ratio(Table& t) {
+  constexpr double widest = 10;
+  const std::array<double, 2> ratio = t.need("ratio", interval(positive()));
+  if (ratio[1] > widest * ratio[0])
+    t.place("ratio").refuse(words(std::vector{ratio[0], ratio[1]}),
+                            "[least, most], most at most " + words(widest) + " times the least");
+  return ratio;
+}
+
 void RatioCriterion::judge(const Case& c, const GateSpec& gate, const std::vector<JudgedRun>& runs,
                            reports::Gate& result) const {
   const auto readings = read(c, gate, runs, theory);

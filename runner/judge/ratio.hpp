@@ -4,9 +4,13 @@
 #include <array>
 #include <string>
 
+#include "runner/input/toml_table.hpp"
 #include "runner/judge/gate_kind.hpp"
 
 namespace diptych::runner {
+
+/// Reads the band of a ratio. Refuses one that is so wide that a wrong solution's ratio is in it, too.
+std::array<double, 2> read_ratio(Table&);
 
 struct RatioCriterion : Criterion {
   std::string theory;

@@ -13,6 +13,7 @@
 #include "runner/input/case_checks.hpp"
 #include "runner/input/case_tables.hpp"
 #include "runner/input/toml_table.hpp"
+#include "runner/judge/bound.hpp"
 #include "runner/judge/judging.hpp"
 #include "runner/judge/series.hpp"
 
@@ -49,7 +50,7 @@ void check_runs_of_settling(const Place& place, bool of_probe, const GateSpec& g
 void read_settling(Table& t, const Case& c, GateSpec& gate) {
   SettlingCriterion limit;
   const bool of_probe = gate.quantity.starts_with("probe.");  // which tells its meshes itself
-  limit.max = t.need("max", not_negative());
+  limit.max = read_tolerance(t, "max", 1, "all of what changes");
   if (of_probe) {
     limit.judged = t.need("judged", set_of(number_of_cells()));
     among(t.place("judged"), limit.judged, all_axes(c).cells, "axes.cells");

@@ -101,7 +101,7 @@ reports::Sample BarLeaf::sample(const Snapshot& own, const Snapshot& at, double 
     const Field& field = field_of(own, q);
     if (drawn(c, leaf, &Recorded::curves)) {
       sample.curves[name] = polyline(at, q, leaf, moves);
-      if (exact && exact->gives(q)) {
+      if (exact && exact->gives(q) && (!moves || exact->gives(BarQuantity::displacement))) {
         sample.exact_curves[name] = exact_line(*exact, q, bars, at.displacement.time, moves);
       }
     }

@@ -13,7 +13,6 @@
 
 namespace diptych::runner {
 
-/// How to run, as against what.
 struct Keeping;
 
 /// The number-th of `of` parts into which runs are divided, by what they see: which part a run is in does not change
@@ -23,6 +22,15 @@ struct Shard {
   bool has(const std::string& words) const;
 };
 
+/// What runs will take, about.
+struct Ahead {
+  std::size_t runs = 0;
+  double steps = 0;       ///< of all of them
+  double most_steps = 0;  ///< of one of them
+  double seconds = 0;     ///< on the threads that they have
+};
+
+/// How to run, as against what.
 struct Running {
   int threads = 1;                               ///< for all runs together
   const std::atomic<bool>* cancelled = nullptr;  ///< turns true where runs should stop soon
@@ -35,7 +43,9 @@ struct Running {
   /// Told of each run, from one thread at a time.
   std::function<void(std::size_t which, const reports::Run&)> finished = {};
   std::function<void(std::size_t done, std::size_t total)> progress = {};  ///< after each run, likewise
-  int threads_a_run = 1;                                                   ///< of plates; the same bits for any number
+  /// Told what all runs together will take, before the first of them; what it throws leaves run_cases.
+  std::function<void(const Ahead&)> ahead = {};
+  int threads_a_run = 1;                     ///< of plates; the same bits for any number
   std::optional<double> limit_seconds = {};  ///< run_cases stops a run that takes longer: status "timed out"
   std::optional<Shard> shard = {};           ///< run_cases makes its part alone; the others have status "left out"
   Keeping* keeping = nullptr;                ///< where run_cases looks for runs that were made before; null: nowhere
@@ -49,8 +59,12 @@ reports::Run describe(const Case&, const Leaf&);
 /// What a run will take.
 struct Outlook {
   TimeStep step;
-  double duration = 0;                                                             ///< [s]
-  double updates(int unknowns) const { return unknowns * duration / step.asked; }  ///< of unknowns, about so many
+  double duration = 0;                                               ///< [s]
+  double steps() const { return duration / step.asked; }             ///< about so many
+  double updates(int unknowns) const { return unknowns * steps(); }  ///< of unknowns
+  /// On one thread of a usual machine, to a factor of ten: the slower runs of the gates take 2e-8 s for an update of an
+  /// unknown, and a step of next to nothing 1e-7 s.
+  double seconds(int unknowns) const { return 2e-8 * updates(unknowns) + 1e-7 * steps(); }
 };
 Outlook outlook(const Case&, const Leaf&);
 inline TimeStep step_of(const Case& c, const Leaf& leaf) { return outlook(c, leaf).step; }

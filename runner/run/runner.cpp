@@ -20,19 +20,30 @@
 namespace diptych::runner {
 namespace {
 
-void refuse_unstable(const Case& c, const Leaf& leaf, const Outlook& ahead) {
-  if (c.allow_unstable) return;
+/// The file and the line of the Courant number that the run has.
+std::string place_of_courant(const Case& whole, const Leaf& leaf) {
+  for (const Axes& block : whole.axes)
+    if (block.line > 0 && contains(block.method, leaf.method) &&
+        std::find(block.cells.begin(), block.cells.end(), leaf.cells) != block.cells.end() &&
+        std::find(block.courant.begin(), block.courant.end(), leaf.courant) != block.courant.end())
+      return fmt::format("{}:{}", whole.path.string(), block.line);
+  return whole.path.string();
+}
+
+void refuse_unstable(const Case& whole, const Leaf& leaf, const Outlook& ahead) {
+  if (whole.allow_unstable) return;
   constexpr double most = 1e12;
   const TimeStep& step = ahead.step;
   if (!(ahead.duration / step.asked <= most))
-    throw InputError(fmt::format("{}: axes.courant: {} needs {:g} steps; allowed: at most {:g} steps", c.path.string(),
-                                 leaf.courant, ahead.duration / step.asked, most));
+    throw InputError(fmt::format("{}: axes.courant: {} needs {:g} steps; allowed: at most {:g} steps",
+                                 place_of_courant(whole, leaf), leaf.courant, ahead.duration / step.asked, most));
   if (!(step.asked > step.limit * (1 + round_off))) return;  // so it is where the panel knows no limit
   throw InputError(fmt::format(
       "{}: axes.courant: {} for {} with {} cells is a time step of {:.6g}, above the limit {:.6g} (Courant {:.6g}); "
       "allowed are values up to the limit, an [[axes]] of its own for each limit, or [run] allow_unstable = true to "
       "see it blow up",
-      c.path.string(), leaf.courant, leaf.method, leaf.cells, step.asked, step.limit, step.limit / step.unit));
+      place_of_courant(whole, leaf), leaf.courant, leaf.method, leaf.cells, step.asked, step.limit,
+      step.limit / step.unit));
 }
 
 struct Task {
@@ -40,7 +51,8 @@ struct Task {
   Leaf leaf;
   std::shared_ptr<const Case> c;  ///< as the leaf has it
   TimeStep step{};
-  double work = 0;           ///< about as many updates of unknowns
+  double work = 0;  ///< about as many updates of unknowns
+  double steps = 0, seconds = 0;
   std::string refused = {};  ///< why it may not be run, nor any other
   std::string broken = {};   ///< why it alone cannot be
   std::string words = {};    ///< all that its run can see
@@ -60,6 +72,22 @@ void share(std::vector<Task>& tasks, const Running& running) {
       made[place->second].same.push_back(std::move(task));
   }
   tasks = std::move(made);
+}
+
+/// What the tasks will take whose runs are not kept.
+Ahead all_ahead(const std::vector<Task>& tasks, const Running& running) {
+  Ahead all;
+  double longest = 0;
+  for (const Task& task : tasks) {
+    if (running.keeping && !running.keeping->fresh && running.keeping->store.has(task.words)) continue;
+    ++all.runs;
+    all.steps += task.steps;
+    all.most_steps = std::max(all.most_steps, task.steps);
+    all.seconds += task.seconds;
+    longest = std::max(longest, task.seconds);
+  }
+  all.seconds = std::max(all.seconds / running.threads, longest);
+  return all;
 }
 
 /// A run that was made before. One whose bits a gate wants compared is made again, whatever the store has: that it
@@ -124,20 +152,24 @@ void for_each(std::size_t count, const Running& running, const Act& act) {
 }
 
 /// Finds what lies ahead of each task. Throws InputError where one may not be run.
-void look_ahead(std::vector<Task>& tasks, const std::vector<reports::Case>& results, const Running& running) {
+void look_ahead(std::vector<Task>& tasks, const std::vector<Case>& cases, const std::vector<reports::Case>& results,
+                const Running& running) {
   for_each(tasks.size(), running, [&](std::size_t t) {
     Task& task = tasks[t];
     Outlook ahead;
     try {
       ahead = outlook(*task.c, task.leaf);
-      refuse_unstable(*task.c, task.leaf, ahead);
+      refuse_unstable(cases[task.which], task.leaf, ahead);
     } catch (const InputError& problem) {
       task.refused = problem.what();
     } catch (const std::exception& problem) {
       task.broken = problem.what();
     }
     task.step = ahead.step;
-    task.work = ahead.updates(results[task.which].runs[task.slot].unknowns);
+    const int unknowns = results[task.which].runs[task.slot].unknowns;
+    task.work = ahead.updates(unknowns);
+    task.steps = ahead.steps();
+    task.seconds = ahead.seconds(unknowns);
   });
   for (const Task& task : tasks)
     if (!task.refused.empty()) throw InputError(task.refused);
@@ -167,14 +199,7 @@ std::vector<reports::Case> run_cases(const std::vector<Case>& cases, const Runni
     const auto [doubt, is_new] = doubts.try_emplace({task.which, task.leaf.variant});
     if (is_new) doubted.emplace_back(task.c.get(), &doubt->second);
   }
-  for_each(doubted.size(), running, [&](std::size_t k) {
-    try {
-      *doubted[k].second = doubt_exact(*doubted[k].first);
-    } catch (const std::exception& problem) {  // its own case's trouble, and no other's
-      *doubted[k].second = std::string("the exact solution's own test came to no end: ") + problem.what();
-    }
-  });
-  look_ahead(tasks, results, running);
+  look_ahead(tasks, cases, results, running);
   share(tasks, running);
   if (running.shard) {
     const auto of_others = [&](const Task& task) { return !running.shard->has(task.words); };
@@ -187,6 +212,14 @@ std::vector<reports::Case> run_cases(const std::vector<Case>& cases, const Runni
   }
   std::size_t total = 0;
   for (const Task& task : tasks) total += 1 + task.same.size();
+  if (running.ahead && !(running.cancelled && *running.cancelled)) running.ahead(all_ahead(tasks, running));
+  for_each(doubted.size(), running, [&](std::size_t k) {
+    try {
+      *doubted[k].second = doubt_exact(*doubted[k].first);
+    } catch (const std::exception& problem) {  // its own case's trouble, and no other's
+      *doubted[k].second = std::string("the exact solution's own test came to no end: ") + problem.what();
+    }
+  });
   std::stable_sort(tasks.begin(), tasks.end(), [&](const Task& a, const Task& b) {
     return running.cheapest_first ? a.work < b.work : a.work > b.work;
   });
@@ -218,12 +251,11 @@ std::vector<reports::Case> run_cases(const std::vector<Case>& cases, const Runni
         one.threads_a_run = threads_within(running.threads, tasks.size(), run.unknowns);
         std::optional<Deadline> deadline;
         if (running.limit_seconds) one.cancelled = deadline.emplace(*running.limit_seconds, running.cancelled).stop();
-        const double steps = task.work / std::max(run.unknowns, 1);
         run = run_leaf(*task.c, task.leaf, task.step, one);
         if (deadline && deadline->passed() && run.status == "cancelled") {
           run.status = "timed out";
-          run.message =
-              fmt::format("stopped after {:g} s at step {} of about {:.0f}", *running.limit_seconds, run.steps, steps);
+          run.message = fmt::format("stopped after {:g} s at step {} of about {:.0f}", *running.limit_seconds,
+                                    run.steps, task.steps);
         }
       } catch (const std::exception& problem) {
         run.status = "error";
@@ -252,7 +284,7 @@ std::vector<reports::Case> run_cases(const std::vector<Case>& cases, const Runni
 std::vector<PlannedRun> plan_runs(const std::vector<Case>& cases, const Running& running) {
   std::vector<Task> tasks;
   const std::vector<reports::Case> results = described(cases, running, tasks);
-  look_ahead(tasks, results, running);
+  look_ahead(tasks, cases, results, running);
   share(tasks, running);
   std::vector<PlannedRun> planned;
   for (const Task& task : tasks) {

@@ -114,6 +114,11 @@ std::optional<reports::Run> Store::find(const std::string& words) const {
   }
 }
 
+bool Store::has(const std::string& words) const {
+  std::error_code none;
+  return fs::exists(file_of(words), none);
+}
+
 void Store::keep(const std::string& words, const reports::Run& run) const {
   const std::string bytes = packed({build_, words, run.case_id, run.label(), reports::run_record(run)});
   reports::write_file(file_of(words),

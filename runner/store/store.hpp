@@ -32,6 +32,8 @@ class Store {
 
   /// The run of these words that this build made, or nothing: none was kept, or it is not whole.
   std::optional<reports::Run> find(const std::string& words) const;
+  /// Whether there is a record of these words, whole or not.
+  bool has(const std::string& words) const;
   /// Throws std::runtime_error where it cannot be written, and leaves what was there.
   void keep(const std::string& words, const reports::Run&) const;
 

@@ -43,7 +43,6 @@ std::vector<std::vector<double>> all_sets() {
 /// Eigenvalues of a complex matrix, and their conjugates: GSL has them for real matrices only, and [Re −Im; Im Re] has
 /// both.
 std::vector<Complex> eigenvalues(const std::vector<std::vector<Complex>>& columns) {
-  gsl_set_error_handler_off();
   const std::size_t n = columns.size();
   const std::unique_ptr<gsl_matrix, decltype(&gsl_matrix_free)> matrix(gsl_matrix_alloc(2 * n, 2 * n),
                                                                        &gsl_matrix_free);
@@ -305,7 +304,6 @@ const Discretisation fem(double cell, double courant) { return {Scheme::fem, cel
 /// ∫ from 0 to end.
 template <class F>
 double quadrature(F f, double end) {
-  gsl_set_error_handler_off();
   const std::unique_ptr<gsl_integration_workspace, decltype(&gsl_integration_workspace_free)> workspace(
       gsl_integration_workspace_alloc(20000), &gsl_integration_workspace_free);
   gsl_function integrand{[](double x, void* g) { return (*static_cast<F*>(g))(x); }, &f};

@@ -87,6 +87,13 @@ BOOST_AUTO_TEST_CASE(bars_that_do_not_close_in_never_touch) {
   BOOST_TEST(grid_contact_time({0.5, 3.5, 1, 1.5, 1}) == infinite);
 }
 
+// Such an approach once was looked for without end.
+BOOST_AUTO_TEST_CASE(faces_that_doubles_do_not_tell_apart) {
+  for (const Approach& lost : {Approach{0, 1e30, 1, 0, 1}, Approach{0, 1e302, 1, -1, 1},
+                               Approach{0, 4, std::numeric_limits<double>::denorm_min(), 0, 1}})
+    BOOST_CHECK_THROW(grid_contact_time(lost), std::domain_error);
+}
+
 // Faces are those of the grid, so a shift by whole cells and a change of units leave the time alone.
 BOOST_AUTO_TEST_CASE(shifts_by_whole_cells_and_units_do_not_matter) {
   const Approach a{0.3, 7.2, 1.25, -0.5, 1};

@@ -242,7 +242,7 @@ reason = "r"
 id = "rest"
 kind = "exact"
 quantity = "contact.restitution"
-max = 2
+max = 1
 reason = "r"
 [[gate]]
 id = "closure"
