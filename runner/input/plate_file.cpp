@@ -8,6 +8,7 @@
 #include "runner/input/case_checks.hpp"
 #include "runner/input/case_tables.hpp"
 #include "runner/input/plate_build.hpp"
+#include "runner/input/plate_corners.hpp"
 #include "runner/input/plate_solids.hpp"
 #include "runner/input/toml_table.hpp"
 
@@ -482,6 +483,7 @@ void read_plate_case(Table& file, Case& c) {
   file.table("sample", [&](Table& t) { read_plate_sample(t, c); });
   if (scene_is_read) {
     check_meshes(file.place("axes"), c);
+    if (c.plate->solid) check_corners(file.place("supports"), c);
     const Place face = file.place(c.plate->flyer ? "flyer" : "diffusion");
     check_face(face, "the impact face", *c.plate, c);
     for (const PlateVariant& variant : c.variants)

@@ -140,6 +140,24 @@ BOOST_AUTO_TEST_CASE(cells_that_are_no_cells) {
                    {"plate.cell_aspect: found", "1e-6 to 1e6"});
 }
 
+BOOST_AUTO_TEST_CASE(a_corner_that_two_sides_move_otherwise) {
+  const auto square = [](const std::string& left, const std::string& bottom, const std::string& velocity) {
+    return start + plate("1.0", "1.0") + elastic("1e4", "0.3", "1.0") + supports(left, "free", bottom, "free") +
+           "velocity = " + velocity + "\n[model]\nfeatures = [\"elastic\"]\n" + axes({"fem"}, "10", "0.5") +
+           "[sample]\ntimes = { unit = \"s\", at = [0.01] }\n" + closed;
+  };
+  expect_refused(square("driven", "fixed", "[\"0.1\", \"0\"]"), {"supports: found the left side driven at (0.1, 0) m/s",
+                                                                 "the bottom side, which is fixed, at t = 0 s"});
+  expect_refused(square("fixed", "driven", "[\"0\", \"t\"]"),
+                 {"the bottom side driven", "the left side, which is fixed"});
+  expect_refused(square("driven", "roller", "[\"0\", \"0.1\"]"), {"the bottom side, which is roller"});
+  expect_refused(square("roller", "driven", "[\"0.1\", \"0\"]"), {"the left side, which is roller"});
+  BOOST_TEST(refusal(square("driven", "fixed", "[\"0.1*y\", \"y*t\"]")) == "");
+  BOOST_TEST(refusal(square("driven", "roller", "[\"0.1\", \"0\"]")) == "");
+  BOOST_TEST(refusal(square("driven", "driven", "[\"0.1\", \"0.2\"]")) == "");
+  BOOST_TEST(refusal(square("driven", "free", "[\"0.1\", \"0.2\"]")) == "");
+}
+
 BOOST_AUTO_TEST_CASE(long_work_is_told_and_asked_for) {
   Ahead told;
   Running running;
