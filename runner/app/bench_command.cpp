@@ -42,7 +42,7 @@ int off_command(const Options& options, const std::atomic<bool>& cancelled) {
     throw InputError("--threads: found more than one; allowed with --off: 1");
   if (!options.json.empty()) prepare(options.json.parent_path().empty() ? "." : options.json.parent_path());
   const std::vector<reports::OffRow> rows = off(plan, &cancelled, progress());
-  say("{}", reports::off_text(rows));
+  print("{}", reports::off_text(rows));
   if (!options.json.empty()) reports::write_file(options.json, reports::off_json(rows, provenance()));
   if (cancelled) return unstable_or_error;
   const auto all = [&](auto&& holds) { return std::all_of(rows.begin(), rows.end(), holds); };
