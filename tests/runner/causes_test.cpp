@@ -43,8 +43,9 @@ std::vector<reports::Run> runs_of(const std::string& text, Books books = Books::
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(a_load_that_is_no_number) {
-  const std::string expression = replaced(plain, "history = \"step\"\ntraction = 1.0",
-                                          "history = \"expression\"\ntraction = \"sqrt(0.0071 - t)\"");
+  const std::string expression =
+      replaced(replaced(plain, "[exact]\nsolution = \"bar-wave\"\n", ""), "history = \"step\"\ntraction = 1.0",
+               "history = \"expression\"\ntraction = \"sqrt(0.0071 - t)\"");
   for (const reports::Run& run : runs_of(replaced(expression, "at = [0.5, 1.0]", "at = [0.5, 0.7]"))) {
     BOOST_TEST(run.status == "error", run.label());
     BOOST_TEST(holds_all(run.message, {"load: found \"sqrt(0.0071 - t)\"", "NaN at t = 0.00", "allowed: finite"}),
@@ -191,7 +192,7 @@ BOOST_AUTO_TEST_CASE(the_ledger_of_an_unstable_run_is_kept) {
   for (const reports::Run& run : runs_of(text + "[run]\nallow_unstable = true\n", Books::lines)) {
     BOOST_TEST(run.status == "unstable", run.label());
     BOOST_TEST(static_cast<long>(run.ledger.size()) >= run.steps, run.label());
-    BOOST_TEST(run.ledger.size() > 10U);
+    BOOST_TEST(run.ledger.size() > 2U);
     BOOST_TEST(run.ledger.back().kinetic > 1e3 * run.ledger.front().kinetic);
   }
 }
