@@ -73,7 +73,7 @@ scheme = "rkl2"
 reading = "radial"
 drift = 0.1
 )toml" + supports("roller", "free", "driven", "platen") +
-                          R"toml(velocity = ["0", "-0.1*t"]
+                          R"toml(velocity = ["0", "-0.1*t*x*(Lx-x)"]
 [[load]]
 at = "top"
 history = "ramp"
@@ -412,7 +412,7 @@ BOOST_AUTO_TEST_CASE(every_key_of_a_damaging_plate_is_read) {
 
   using Support = Edge::Support;
   BOOST_TEST((plate.supports == std::array{Support::roller, Support::free, Support::driven, Support::platen}));
-  BOOST_TEST((plate.drive == Pair{"0", "-0.1*t"}));
+  BOOST_TEST((plate.drive == Pair{"0", "-0.1*t*x*(Lx-x)"}));
   BOOST_REQUIRE_EQUAL(plate.loads.size(), 3u);
   const SideLoad &top = plate.loads[0], &shear = plate.loads[1], &normal = plate.loads[2];
   BOOST_TEST((top.side == Side::top && !top.shear && top.history == "ramp" && top.traction == "P/2"));
@@ -685,13 +685,15 @@ BOOST_AUTO_TEST_CASE(there_is_one_platen) {
 }
 
 BOOST_AUTO_TEST_CASE(driven_sides_have_a_velocity_and_others_none) {
-  expect_at(without(alone(), {"velocity = [\"0\", \"-0.1*t\"]"}), "[supports]",
+  expect_at(without(alone(), {"velocity = [\"0\", \"-0.1*t*x*(Lx-x)\"]"}), "[supports]",
             {"supports.velocity", "missing", "two expressions of x, y and t"});
   expect_at(replaced(alone(), "bottom = \"driven\"", "bottom = \"roller\""), "velocity = [\"0\"",
             {"supports.velocity", "without a driven side"});
-  wrong(alone(), "velocity = [\"0\", \"-0.1*t\"]", "velocity = [\"-0.1*t\"]", {"supports.velocity", "a list of 2"});
-  wrong(alone(), "velocity = [\"0\", \"-0.1*t\"]", "velocity = \"-0.1*t\"", {"supports.velocity", "a list of 2"});
-  wrong(alone(), "velocity = [\"0\", \"-0.1*t\"]", "velocity = [0, \"-0.1*t\"]",
+  wrong(alone(), "velocity = [\"0\", \"-0.1*t*x*(Lx-x)\"]", "velocity = [\"-0.1*t*x*(Lx-x)\"]",
+        {"supports.velocity", "a list of 2"});
+  wrong(alone(), "velocity = [\"0\", \"-0.1*t*x*(Lx-x)\"]", "velocity = \"-0.1*t*x*(Lx-x)\"",
+        {"supports.velocity", "a list of 2"});
+  wrong(alone(), "velocity = [\"0\", \"-0.1*t*x*(Lx-x)\"]", "velocity = [0, \"-0.1*t*x*(Lx-x)\"]",
         {"supports.velocity, entry 1", "found 0", "in quotes"});
 }
 
@@ -747,7 +749,7 @@ BOOST_AUTO_TEST_CASE(some_choices_do_not_go_together) {
 
 BOOST_AUTO_TEST_CASE(a_mistake_of_the_scene_does_not_lose_its_variants) {
   wrong(whole, "beta = 0.5", "beta = -0.5", {"material.beta"});
-  wrong(whole, "velocity = [\"0\", \"-0.1*t\"]", "velocity = [\"0\"]", {"supports.velocity"});
+  wrong(whole, "velocity = [\"0\", \"-0.1*t*x*(Lx-x)\"]", "velocity = [\"0\"]", {"supports.velocity"});
 }
 
 BOOST_AUTO_TEST_CASE(a_stale_factorisation_needs_a_scheme_that_damps) {
@@ -798,7 +800,7 @@ BOOST_AUTO_TEST_CASE(expressions_must_be_formulas_of_what_is_known_there) {
   wrong(plain, "traction = \"P*sin(t)\"", "traction = \"P*sin(x)\"", {"load 2: traction", "\"x\""});
   wrong(plain, "velocity = [\"0.1*x\", \"y\"]", "velocity = [\"0.1*x\", \"y*t\"]",
         {"initial.velocity, entry 2", "\"t\""});
-  wrong(plain, "velocity = [\"0\", \"-0.1*t\"]", "velocity = [\"z\", \"-0.1*t\"]",
+  wrong(plain, "velocity = [\"0\", \"-0.1*t*x*(Lx-x)\"]", "velocity = [\"z\", \"-0.1*t*x*(Lx-x)\"]",
         {"supports.velocity, entry 1", "\"z\""});
   wrong(plain, "\"-9.81*t\"", "\"-9.81*tt\"", {"body_force.acceleration, entry 2", "tt"});
   wrong(plain, "\"x + y + t\"", "\"x + L\"", {"exact.concentration", "\"L\""});  // a bar's
