@@ -77,7 +77,7 @@ std::string text_of(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   if (!in) fail(std::generic_category().message(errno));
   std::string text(most_file_bytes + 1, '\0');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  in.read(text.data(), most_file_bytes + 1);
   if (in.bad()) fail(std::generic_category().message(errno));
   text.resize(static_cast<std::size_t>(in.gcount()));
   if (text.size() > most_file_bytes) fail(fmt::format("it is larger than {} bytes, the most allowed", most_file_bytes));

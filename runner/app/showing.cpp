@@ -45,9 +45,9 @@ std::function<void(const Ahead&)> warning_of(const Options& options, bool aloud)
   return [yes = options.yes, aloud](const Ahead& ahead) {
     const std::string what = fmt::format("{} runs of {:.3g} steps in all, {:.3g} at the most of one: {}", ahead.runs,
                                          ahead.steps, ahead.most_steps, duration_words(ahead.seconds));
-    if (aloud) tell("{}\n", what);
     constexpr double hour = 3600;
     if (ahead.seconds > hour && !yes) throw InputError(what + "; allowed: at most an hour, or with --yes");
+    if (aloud) tell("{}\n", what);
   };
 }
 

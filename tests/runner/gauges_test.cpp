@@ -134,7 +134,7 @@ id = "none"
 kind = "constant"
 quantity = "gauge.near.failure"
 predict = "diffusion-front"
-ratio = [1e-9, 1e9]
+ratio = [0.4, 2.5]
 reason = "nothing fails"
 )toml";
 
