@@ -115,7 +115,7 @@ reports::Run measured(const LeafScene<S, M, R>& it, const TimeStep& step, const 
   std::vector<std::string> declared = it.declared();
   for (const std::string& feature : it.row.shows_not) std::erase(declared, feature);
   if constexpr (requires { it.scene.viscosity; })  // of no coefficients is none, which a sweep may come to
-    if (!material::acting(it.scene.viscosity)) std::erase(declared, std::string("viscosity"));
+    if (it.scene.viscosity && !it.scene.viscosity->gives_stress()) std::erase(declared, std::string("viscosity"));
   run.invalid = why_invalid(c, record.features, declared, run);
   if (run.invalid.empty()) run.invalid = it.doubt();
   return run;
