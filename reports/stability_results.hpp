@@ -1,4 +1,4 @@
-// Up to which time step the settings of a case are stable, as plain data.
+// Up to which time step, or which other number, the settings of a case are stable, as plain data.
 #pragma once
 
 #include <cmath>
@@ -36,12 +36,13 @@ struct StabilityLimit {
 
 struct StabilityMap {
   std::string case_id, title;
-  std::string number;  ///< what is limited: "Courant number cΔt/h"
-  std::string axis;    ///< whose values `at` are; empty: the settings have none in common
-  long steps = 0;      ///< of each look-ahead
-  double least = 0;    ///< the smallest number tried
-  double most = 0;     ///< the largest
-  double growth = 0;   ///< of energy over the look-ahead, beyond which a run is unstable
+  std::string number;      ///< what is limited: "Courant number cΔt/h"
+  std::string axis;        ///< whose values `at` are; empty: the settings have none in common
+  std::string look_ahead;  ///< of each trial: "2000 steps"
+  std::string followed;    ///< what was followed over it: "small random motions about rest"
+  std::string unstable;    ///< what was called so
+  double least = 0;        ///< the smallest number tried
+  double most = 0;         ///< the largest
   std::vector<StabilityLimit> limits;
 };
 

@@ -15,8 +15,14 @@ std::string or_dash(const std::optional<double>& value, const char* format) {
   return value ? fmt::format(fmt::runtime(format), *value) : "-";
 }
 
+/// Time steps to four decimals; loads and speeds to as many digits.
+std::string size_words(double number) {
+  constexpr double large = 1000;
+  return number < large ? fmt::format("{:.4f}", number) : fmt::format("{:.5g}", number);
+}
+
 std::string limit_words(const StabilityMap& map, const StabilityLimit& one) {
-  if (one.limit()) return fmt::format("{:.4f}", *one.limit());
+  if (one.limit()) return size_words(*one.limit());
   if (one.stable) return fmt::format("none to {:g}", map.most);
   return one.unstable ? fmt::format("below {:.2g}", *one.unstable) : "error";
 }
@@ -26,7 +32,8 @@ std::string csv_or_empty(const std::optional<double>& value) { return value ? cs
 }  // namespace
 
 std::string stability_text(const StabilityMap& map, double within) {
-  std::string out = fmt::format("{}: largest {} without growth in {} steps\n", map.case_id, map.number, map.steps);
+  std::string out =
+      fmt::format("{}: largest {} that is stable; look-ahead {}\n", map.case_id, map.number, map.look_ahead);
   std::size_t widest = 3;
   for (const StabilityLimit& one : map.limits) widest = std::max(widest, characters(one.label));
   const auto line = [&](const std::string& name, const std::string& limit, const std::string& between,
@@ -38,18 +45,14 @@ std::string stability_text(const StabilityMap& map, double within) {
   out += line("run", "limit", "between", "theory", "ratio", "growth at", "and above") + '\n';
   for (const StabilityLimit& one : map.limits) {
     const std::string below = one.stable ? "faded" : "-", above = one.unstable ? "refused" : "-";
-    const std::string between = one.limit() ? fmt::format("{:.4f}..{:.4f}", *one.stable, *one.unstable) : "-";
-    out += line(one.label, limit_words(map, one), between, or_dash(one.theory, "{:.4f}"),
+    const std::string between = one.limit() ? size_words(*one.stable) + ".." + size_words(*one.unstable) : "-";
+    out += line(one.label, limit_words(map, one), between, one.theory ? size_words(*one.theory) : "-",
                 or_dash(one.ratio(), "{:.4f}"), one.growth_below ? fmt::format("{:.1e}", *one.growth_below) : below,
                 one.growth_above ? fmt::format("{:.1e}", *one.growth_above) : above);
     out += one.agrees(within) ? "\n" : "  OFF\n";
     if (!one.message.empty()) out += fmt::format("      {}\n", one.message);
   }
-  return out + fmt::format(
-                   "linear about rest: small random motions of all points, without loads; unstable: their energy, as "
-                   "fitted over\nthe second half of the {} steps, would grow more than {:g}-fold over all of them; "
-                   "growth: of amplitudes, per step\n",
-                   map.steps, map.growth);
+  return out + fmt::format("followed: {}\nunstable: {}\ngrowth: of amplitudes, per step\n", map.followed, map.unstable);
 }
 
 std::string stability_verdict(const StabilityMap& map, double within) {
@@ -66,9 +69,8 @@ std::string stability_verdict(const StabilityMap& map, double within) {
 
 std::string stability_csv(const StabilityMap& map) {
   std::string out = csv_note("case", map.case_id) + csv_note("title", map.title) + csv_note("number", map.number) +
-                    csv_note("steps", std::to_string(map.steps)) +
-                    csv_note("unstable", "energy, as fitted over the second half of the steps, would grow more than " +
-                                             csv_number(map.growth) + "-fold over all of them") +
+                    csv_note("look-ahead", map.look_ahead) + csv_note("followed", map.followed) +
+                    csv_note("unstable", map.unstable) +
                     csv_note("tried", "from " + csv_number(map.least) + " to " + csv_number(map.most)) +
                     csv_note("growth", "of amplitudes, per step") +
                     csv_line({"run", "setting", "method", map.axis.empty() ? "at" : map.axis, "limit", "stable",
@@ -81,12 +83,12 @@ std::string stability_csv(const StabilityMap& map) {
 }
 
 std::string stability_json(const StabilityMap& map, const Provenance& made_by) {
-  Json all{{"type", "stability"},  {"case", map.case_id}, {"title", map.title},
-           {"number", map.number}, {"axis", map.axis},    {"steps", map.steps}};
+  Json all{{"type", "stability"},      {"case", map.case_id},     {"title", map.title},
+           {"number", map.number},     {"axis", map.axis},        {"look_ahead", map.look_ahead},
+           {"followed", map.followed}, {"unstable", map.unstable}};
   Numbers of_all(all);
   of_all.put("least", map.least);
   of_all.put("most", map.most);
-  of_all.put("growth", map.growth);
   all["limits"] = Json::array();
   for (const StabilityLimit& one : map.limits) {
     Json item{{"run", one.label}, {"setting", one.setting}, {"method", one.method}, {"message", one.message}};

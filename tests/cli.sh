@@ -62,6 +62,10 @@ expect 10 'OFF' "$program" stability bar.stability.limits --within 1e-6 --out lo
 expect 0 'none to 64' "$program" stability diffusion.mode --over diffusion.scheme=rkl2 --out looked
 expect 14 'Courant numbers are what is sought' "$program" stability bar.mode.fixed-free --over courant=0.5
 expect 14 'numbers from 0 to 1, the sides' "$program" stability bar.mode.fixed-free --over position=2
+expect 0 'fem N=20 v0=30 +(0\.99|1\.00).*' "$program" stability impact.speed --limit-of courant=0.1:3 --over v0=30 --out looked
+expect 0 'inside out' "$program" stability impact.speed --limit-of v0=1:300 --out looked
+expect 14 'found "v1"; allowed: .*"v0"' "$program" stability impact.speed --limit-of v1=1:300
+expect 14 'KEY=LEAST:MOST' "$program" stability impact.speed --limit-of v0=300
 expect 14 '2 cases; allowed: one' "$program" stability bar.mode.fixed-free bar.energy
 
 # A scene of one's own, and what happens to a gate that cannot hold.

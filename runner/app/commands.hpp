@@ -51,6 +51,8 @@ struct Options {
   bool off = false;                           ///< bench: what features cost where they are off
   bool strict_time = false;                   ///< bench --off: the status is not 0 for times, too
   long steps = 2000;                          ///< stability: of each look-ahead
+  std::optional<long> steps;                  ///< stability: of each look-ahead; none: see StabilityPlan
+  std::string limit_of, at_most;              ///< stability: what is sought instead of the step, and within what
   double within = 0.01;                       ///< stability: part of theory by which a limit may be off
   std::string pattern;                        ///< test: only the tests whose names it fits
   bool targets = false;                       ///< test: only name what must be built for them

@@ -143,8 +143,8 @@ int main(int argc, char** argv) {
   pick->footer("Example: diptych pick bar.step.fixed-free --error 10% --quantity stress.L1 --time 1.7");
   pick->callback([&] { status = pick_command(options, cancelled); });
 
-  auto* stability =
-      app.add_subcommand("stability", "the largest stable time step of each setting, by bisection, beside theory");
+  auto* stability = app.add_subcommand(
+      "stability", "the largest stable time step, load or speed of each setting, by bisection, beside theory");
   add_cases(stability, true);
   stability
       ->add_option("--over", options.over,
@@ -152,16 +152,28 @@ int main(int argc, char** argv) {
                    "position=0.1:0.9:9 (a cell's one particle), particles=1,2, cells=10,20; the coarsest mesh stands "
                    "for all unless cells are given; may be given again")
       ->allow_extra_args(false);
-  stability->add_option("--steps", options.steps, "of each look-ahead; growth that it does not show is not seen")
-      ->check(CLI::Range(20L, 1'000'000L))
-      ->capture_default_str();
+  stability
+      ->add_option(
+          "--limit-of", options.limit_of,
+          "KEY=LEAST:MOST: under the case's own loads, instead of about rest, up to which courant, parameter or "
+          "key of the case runs are stable")
+      ->allow_extra_args(false);
+  stability->add_option("--at-most", options.at_most,
+                        "QUANTITY=NUMBER, probe.ID=0.5: with --limit-of, a run beyond it counts as unstable");
+  stability
+      ->add_option("--steps", options.steps,
+                   "of each look-ahead; growth that it does not show is not seen. 2000 without it; with --limit-of up "
+                   "to the case's last sample time")
+      ->check(CLI::Range(20L, 1'000'000L));
   stability
       ->add_option("--within", options.within, "part of theory by which a limit may be off; else the status is not 0")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   add_out(stability);
   add_threads(stability);
-  stability->footer("Example: diptych stability plate.stability --over material.nu=0.3,0.49,0.4999,0.4999999999");
+  stability->footer(
+      "Examples: diptych stability plate.stability --over material.nu=0.3,0.49,0.4999,0.4999999999\n"
+      "          diptych stability impact.speed --limit-of courant=0.01:2 --over v0=1,30,60,90");
   stability->callback([&] { status = stability_command(options, cancelled); });
 
   auto* ablate =

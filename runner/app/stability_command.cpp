@@ -19,8 +19,8 @@ namespace diptych::runner {
 int stability_command(const Options& options, const std::atomic<bool>& cancelled) {
   const Case c = select_one_case(options.selectors);
   prepare(options.out);
-  const reports::StabilityMap map =
-      stability_map(c, {options.over, options.steps, threads_of(options), &cancelled, progress()});
+  const reports::StabilityMap map = stability_map(
+      c, {options.over, options.steps, threads_of(options), &cancelled, progress(), options.limit_of, options.at_most});
   if (cancelled) return unstable_or_error;  // what was stopped is neither stable nor unstable
   print("{}\n", reports::stability_text(map, options.within));
   const auto folder = options.out / "stability";

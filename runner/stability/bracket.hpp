@@ -16,4 +16,7 @@ struct Bracket {
 /// Nothing below `least` or above `most` is tried. Finds one limit where there are several.
 Bracket bracket_limit(const std::function<bool(double)>& stable, double least, double most);
 
+/// The same from both ends, of which 0 < least < most: for numbers of any size.
+Bracket bracket_between(const std::function<bool(double)>& stable, double least, double most);
+
 }  // namespace diptych::runner

@@ -4,13 +4,21 @@
 
 #include <algorithm>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "hinge/step/threads.hpp"
 #include "runner/input/messages.hpp"
 #include "runner/run/run_leaf.hpp"
 #include "runner/stability/about_rest.hpp"
+#include "runner/stability/at_rest.hpp"
 #include "runner/stability/bracket.hpp"
+#include "runner/stability/growth.hpp"
+#include "runner/stability/limit_of.hpp"
+#include "runner/stability/loaded.hpp"
 #include "runner/trade/over.hpp"
 
 namespace diptych::runner {
@@ -18,6 +26,7 @@ namespace {
 
 struct Setting {
   const Case* whole;
+  std::size_t which;  ///< of the cases that --over makes
   Leaf leaf;
   reports::StabilityLimit limit;
 };
@@ -26,13 +35,10 @@ bool asks_for_cells(const std::vector<std::string>& over) {
   return std::any_of(over.begin(), over.end(), [](const std::string& text) { return text.starts_with("cells="); });
 }
 
-/// One Courant number of each block, which makes no difference; and, unless cells are asked for, one mesh, the coarsest
-/// that is not all border.
-void thin_out(Case& c, bool cells) {
+/// One mesh of each block, the coarsest that is not all border.
+void thin_out(Case& c) {
   constexpr int enough = 4;
   for (Axes& block : c.axes) {
-    block.courant = {1};
-    if (cells) continue;
     int chosen = *std::max_element(block.cells.begin(), block.cells.end());
     for (const int count : block.cells)
       if (count >= enough) chosen = std::min(chosen, count);
@@ -86,11 +92,11 @@ std::string without_axis(const std::string& label, const std::string& axis) {
   return listed(kept, " ");
 }
 
-void name_setting(const std::string& axis, Setting& setting) {
+void name_setting(const std::string& axis, bool at_courant, Setting& setting) {
   const reports::Run run = describe(*setting.whole, setting.leaf);
   Names kept;
   for (const std::string& word : parts_of(run.label(), ' '))
-    if (!word.starts_with("C=")) kept.push_back(word);
+    if (at_courant || !word.starts_with("C=")) kept.push_back(word);
   reports::StabilityLimit& limit = setting.limit;
   limit.label = listed(kept, " ");
   limit.setting = without_axis(limit.label, axis);
@@ -107,7 +113,9 @@ Range range_tried(const Case& c) {
   return kind_of(c) == SceneKind::diffusion ? Range{1e-3, 64} : Range{1e-3, 8};
 }
 
-void find_limit(Setting& setting, const StabilityPlan& plan) {
+constexpr long steps_about_rest = 2000;
+
+void find_limit_about_rest(Setting& setting, const StabilityPlan& plan) {
   const auto c = case_of(*setting.whole, setting.leaf);
   reports::StabilityLimit& found = setting.limit;
   const Range range = range_tried(*c);
@@ -115,7 +123,8 @@ void find_limit(Setting& setting, const StabilityPlan& plan) {
   const auto stable = [&](double number) {
     if (plan.cancelled && *plan.cancelled) return false;
     try {
-      const Growth growth = growth_about_rest(*c, setting.leaf, number, plan.steps, plan.cancelled);
+      const Growth growth =
+          growth_about_rest(*c, setting.leaf, number, plan.steps.value_or(steps_about_rest), plan.cancelled);
       // The bracket's ends only move towards each other: what was seen last is of the nearest.
       (growth.unstable ? found.growth_above : found.growth_below) = growth.rate;
       if (growth.unstable) found.message.clear();
@@ -131,25 +140,84 @@ void find_limit(Setting& setting, const StabilityPlan& plan) {
   found.unstable = bracket.unstable;
 }
 
+void find_limit_of(Setting& setting, const StabilityPlan& plan, const LimitOf& what,
+                   const std::optional<Ceiling>& ceiling) {
+  reports::StabilityLimit& found = setting.limit;
+  const auto stable = [&](double value) {
+    if (plan.cancelled && *plan.cancelled) return false;
+    const Loaded one = with_value(*setting.whole, setting.leaf, what, value, plan.over, setting.which);
+    const LoadedRun run = run_loaded(*one.c, one.leaf, plan.steps, ceiling, plan.cancelled);
+    (run.stable ? found.growth_below : found.growth_above) = run.rate;
+    if (!run.stable) found.message = fmt::format("at {:.5g}: {}", value, run.why);
+    return run.stable;
+  };
+  const Bracket bracket = bracket_between(stable, what.least, what.most);
+  found.stable = bracket.stable;
+  found.unstable = bracket.unstable;
+}
+
+/// What is said of how the limits were found.
+void describe_about_rest(const Case& c, const StabilityPlan& plan, reports::StabilityMap& map) {
+  const Range range = range_tried(c);
+  map.least = range.least;
+  map.most = range.most;
+  map.number = kind_of(c) == SceneKind::diffusion ? "diffusion number d Δt/h²" : "Courant number c Δt/h";
+  map.look_ahead = fmt::format("{} steps", plan.steps.value_or(steps_about_rest));
+  map.followed = "small random motions of all points about rest, without loads";
+  map.unstable = fmt::format(
+      "their energy, as fitted over the second half of the look-ahead, would grow more than {:g}-fold over all of it",
+      growth_of_instability);
+}
+
+void describe_limit_of(const Case& c, const StabilityPlan& plan, const LimitOf& what,
+                       const std::optional<Ceiling>& ceiling, reports::StabilityMap& map) {
+  map.least = what.least;
+  map.most = what.most;
+  map.number = what.key == "courant" ? "Courant number c Δt/h" : what.key;
+  map.look_ahead = plan.steps ? fmt::format("{} steps", *plan.steps)
+                              : fmt::format("the time to {:g} {}", c.times.back(), c.time_unit);
+  map.followed = fmt::format(
+      "the scene under its loads, and what becomes of velocities {:g} of the wave speed, random, on all its points",
+      seed);
+  map.unstable = fmt::format(
+      "more energy than was put in, or (but where particles cross cells) the energy of those velocities, as fitted "
+      "over "
+      "the second half of the look-ahead, would grow more than {:g}-fold over all of it; invalid: points change places "
+      "or leave the grid",
+      growth_of_instability);
+  if (ceiling) map.unstable += fmt::format("; or {} is more than {:g}", ceiling->quantity, ceiling->most);
+}
+
 }  // namespace
 
 reports::StabilityMap stability_map(const Case& c, const StabilityPlan& plan) {
+  if (!plan.at_most.empty() && plan.limit_of.empty())
+    throw InputError("--at-most without --limit-of; allowed: both, or neither");
+  const auto what = plan.limit_of.empty() ? std::nullopt : std::optional(limit_of(c, plan.limit_of));
+  const auto ceiling = plan.at_most.empty() ? std::nullopt : std::optional(ceiling_of(c, plan.at_most));
+  const std::string sought = what ? what->key : "courant";
   for (const std::string& text : plan.over)
-    if (text.starts_with("courant="))
-      throw InputError(fmt::format("--over {}: Courant numbers are what is sought; allowed: any other key", text));
+    if (text.starts_with(sought + "="))
+      throw InputError(fmt::format("--over {}: {} what is sought; allowed: any other key", text,
+                                   sought == "courant" ? "Courant numbers are" : sought + " is"));
   std::vector<Case> cases = with_values(c, plan.over);
   std::vector<Setting> settings;
-  for (Case& one : cases) {
-    thin_out(one, asks_for_cells(plan.over));
-    for (const Leaf& leaf : leaves(one)) settings.push_back({&one, leaf, {}});
+  for (std::size_t which = 0; which < cases.size(); ++which) {
+    Case& one = cases[which];
+    if (!asks_for_cells(plan.over)) thin_out(one);
+    leave_to(what.value_or(LimitOf{sought}), one);
+    for (const Leaf& leaf : leaves(one)) settings.push_back({&one, which, leaf, {}});
   }
   const std::string axis = axis_of(settings, plan.over);
-  for (Setting& setting : settings) name_setting(axis, setting);
+  for (Setting& setting : settings) name_setting(axis, sought != "courant", setting);
   std::mutex telling;
   std::size_t done = 0;
   Threads(plan.threads).for_each(settings.size(), [&](std::size_t k) {
     try {
-      find_limit(settings[k], plan);
+      if (what)
+        find_limit_of(settings[k], plan, *what, ceiling);
+      else
+        find_limit_about_rest(settings[k], plan);
     } catch (const std::exception& problem) {
       settings[k].limit.message = problem.what();
     }
@@ -157,9 +225,14 @@ reports::StabilityMap stability_map(const Case& c, const StabilityPlan& plan) {
     if (plan.progress) plan.progress(++done, settings.size());
   });
 
-  const Range range = range_tried(c);
-  reports::StabilityMap map{c.id, c.title, {}, axis, plan.steps, range.least, range.most, growth_of_instability, {}};
-  map.number = kind_of(c) == SceneKind::diffusion ? "diffusion number d Δt/h²" : "Courant number c Δt/h";
+  reports::StabilityMap map;
+  map.case_id = c.id;
+  map.title = c.title;
+  map.axis = axis;
+  if (what)
+    describe_limit_of(c, plan, *what, ceiling, map);
+  else
+    describe_about_rest(c, plan, map);
   for (Setting& setting : settings) map.limits.push_back(std::move(setting.limit));
   return map;
 }

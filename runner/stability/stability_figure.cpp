@@ -54,9 +54,9 @@ std::optional<reports::Figure> stability_figure(const reports::StabilityMap& map
   reports::Figure figure;
   figure.id = map.case_id + ".stability";
   figure.title = fmt::format("{}: stability limits", map.title);
-  figure.notes.push_back(fmt::format(
-      "{}; largest {} at which small random motions about rest do not grow in {} steps, by bisection to 0.1 %",
-      map.case_id, map.number, map.steps));
+  figure.notes.push_back(
+      fmt::format("{}; largest {} that is stable, look-ahead {}, by bisection to 0.1 %. Followed: {}", map.case_id,
+                  map.number, map.look_ahead, map.followed));
   figure.looks = looks();
   figure.x_label = label;
   figure.y_label = map.number;

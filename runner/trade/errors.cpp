@@ -52,6 +52,10 @@ std::vector<RunNumber> numbers_of(const Case& c, const reports::Run& run) {
   return all;
 }
 
+Names names_of_numbers(const Case& c) {
+  return quantity_names(c, {Sort::probe, Sort::outcome, Sort::gauge_reading, Sort::failure});
+}
+
 std::vector<RunNumber> readings(const Case& c, const reports::Run& run) {
   if (c.times.empty()) return {};
   std::vector<RunNumber> all = numbers_of(c, run);

@@ -9,6 +9,7 @@
 #include "reports/results.hpp"
 #include "reports/trade_results.hpp"
 #include "runner/input/case.hpp"
+#include "runner/input/messages.hpp"
 
 namespace diptych::runner {
 
@@ -22,6 +23,8 @@ struct RunNumber {
 };
 /// Probes at their times, and what is measured once a run: outcomes, what gauges read, speeds of failure.
 std::vector<RunNumber> numbers_of(const Case&, const reports::Run&);
+/// What they may be called in runs of the case.
+Names names_of_numbers(const Case&);
 /// The finite ones with their errors, what is said of a whole run at the last sample time; of the case that the run's
 /// leaf has. Of what gauges read the exact value is that of the elastic shock; of other solids it tells the arrival
 /// alone, the elastic front being ahead of what comes after it.

@@ -5,6 +5,10 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "reports/stability_table.hpp"
 #include "runner/app/case_file.hpp"
@@ -79,7 +83,8 @@ StabilityLimit made(double at, double limit, std::optional<double> theory) {
 }
 
 StabilityMap made_map() {
-  StabilityMap map{"c", "A title", "Courant number c Δt/h", "material.nu", 2000, 1e-3, 8, 10, {}};
+  StabilityMap map{"c", "A title", "Courant number c Δt/h", "material.nu", "2000 steps", "motions", "10-fold", 1e-3,
+                   8,   {}};
   map.limits = {made(0.3, 0.5, 0.5), made(0.49999, 0.6, 0.6)};
   return map;
 }
@@ -316,6 +321,118 @@ BOOST_AUTO_TEST_CASE(the_more_of_pic_the_less_bears_musl_and_the_more_usl) {
     BOOST_TEST(limits.at("mpm-usf")[i] < 0.99 * limits.at("mpm-usf")[i - 1]);
     BOOST_TEST(usl[i] > 1.005 * usl[i - 1]);
   }
+}
+
+// ---- under loads ----
+
+namespace {
+
+StabilityMap found_of(const Case& c, const std::string& limit_of, const std::vector<std::string>& over = {},
+                      const std::string& at_most = "", std::optional<long> steps = {}) {
+  StabilityPlan plan;
+  plan.over = over;
+  plan.steps = steps;
+  plan.limit_of = limit_of;
+  plan.at_most = at_most;
+  return stability_map(c, plan);
+}
+
+const StabilityLimit& limit_at(const StabilityMap& map, const std::string& method, double at) {
+  for (const StabilityLimit& one : map.limits)
+    if (one.method == method && one.at == at) return one;
+  throw std::runtime_error("no such limit");
+}
+
+Case impact_case() { return select_cases({"impact.speed"}).at(0); }
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(numbers_of_any_size_are_bracketed_from_both_ends) {
+  for (const double limit : {1.5e-9, 80.0, 6.3e8}) {
+    const Bracket found = bracket_between([&](double number) { return number <= limit; }, 1e-9, 1e9);
+    BOOST_REQUIRE((found.stable && found.unstable));
+    BOOST_TEST((*found.stable <= limit && *found.unstable > limit && *found.unstable <= 1.0011 * *found.stable));
+  }
+  const Bracket always = bracket_between([](double) { return true; }, 1, 9);
+  const Bracket never = bracket_between([](double) { return false; }, 1, 9);
+  BOOST_TEST((always.stable == 9 && !always.unstable && !never.stable && never.unstable == 1));
+}
+
+// FEM's equations are linear in the reference configuration: at any speed the limit is Courant number 1.
+BOOST_AUTO_TEST_CASE(bars_that_meet_stand_the_same_step_with_fem_at_any_speed) {
+  const StabilityMap map = found_of(impact_case(), "courant=0.1:3", {"method=fem", "v0=10,30"});
+  for (const double v0 : {1.0, 10.0, 30.0, 60.0}) {
+    const StabilityLimit& one = limit_at(map, "fem", v0);
+    BOOST_REQUIRE_MESSAGE(one.limit().has_value(), one.label << ": " << one.message);
+    BOOST_TEST(*one.limit() == 1, tt::tolerance(0.01));
+  }
+}
+
+// At Courant number 1 FEM carries the exact strain −v/c: at the wave speed it is −1, and the bar is folded.
+BOOST_AUTO_TEST_CASE(bars_are_invalid_from_the_speed_on_at_which_they_fold) {
+  const StabilityMap map = found_of(impact_case(), "v0=1:300", {"courant=1"});
+  std::size_t looked_at = 0;
+  for (const StabilityLimit& one : map.limits) {
+    if (one.label != "fem N=20 C=1") continue;
+    ++looked_at;
+    BOOST_REQUIRE_MESSAGE(one.limit().has_value(), one.label << ": " << one.message);
+    BOOST_TEST(*one.limit() == 100, tt::tolerance(0.01));
+    BOOST_TEST(holds(one.message, "inside out"));
+  }
+  BOOST_TEST(looked_at == 1u);
+}
+
+// Every particle that crosses a cell may be given energy; the faster they cross, the shorter the step must be.
+BOOST_AUTO_TEST_CASE(the_faster_bars_meet_the_less_bears_mpm) {
+  const StabilityMap map = found_of(impact_case(), "courant=0.01:3", {"v0=10"});
+  const auto limit = [&](double v0) { return limit_at(map, "mpm-musl", v0).limit().value_or(0); };
+  BOOST_TEST(limit(10) < 0.9 * limit(1));
+  BOOST_TEST(limit(60) < 0.9 * limit(10));
+}
+
+// What is left of K and G is 1 − D: the limit of the whole plate over √(1 − D).
+BOOST_AUTO_TEST_CASE(a_plate_that_is_all_but_damaged_stands_the_longer_step) {
+  const StabilityMap map = found_of(select_cases({"plate.stability.damaged"}).at(0), "courant=0.1:100", {}, "", 1000);
+  std::map<std::string, double> whole;
+  BOOST_REQUIRE(map.limits.size() == 8u);
+  for (const StabilityLimit& one : map.limits)
+    if (one.scene.empty()) whole[one.method] = one.limit().value_or(0);
+  BOOST_TEST(whole.at("fem") == 0.5879, tt::tolerance(0.01));
+  BOOST_TEST(whole.at("mpm-musl") == 1.732, tt::tolerance(0.01));
+  for (const StabilityLimit& one : map.limits) {
+    const double left = one.scene == "d-09" ? 0.1 : one.scene == "d-099" ? 0.01 : one.scene == "d-0999" ? 1e-3 : 1;
+    BOOST_REQUIRE_MESSAGE(one.limit().has_value(), one.label << ": " << one.message);
+    BOOST_TEST(*one.limit() == whole.at(one.method) / std::sqrt(left), tt::tolerance(0.01));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(an_elastic_bar_is_stable_at_any_speed_and_too_quick_where_a_probe_says_so) {
+  const Case c = parse_case(head("s", "robustness", "paper") + paper_bar +
+                                "[parameters]\np = 1.0\n[initial]\nvelocity = \"p*sin(pi*x/2)\"\n"
+                                "[model]\nfeatures = [\"elastic\"]\n" +
+                                axes({"fem"}, "20", "0.5") +
+                                "[sample]\ntimes = { unit = \"L/c\", at = [0.5] }\nprobes = [{ id = \"wall\", field = "
+                                "\"stress\", at = { value = 0.5, unit = \"cells\" } }]\n" +
+                                gate("closed", "invariant", "energy.closure", "max = 1.0\n"),
+                            "s.toml");
+  const StabilityLimit any = found_of(c, "p=0.1:1e6").limits.at(0);
+  BOOST_TEST((any.stable == 1e6 && !any.unstable), any.message);
+  // u = (2p/πc) sin(πx/2) sin(πct/2): at the wall σ = E p/c sin(π/4) after half the time of a wave.
+  const StabilityLimit stressed = found_of(c, "p=0.1:1e6", {}, "probe.wall=50").limits.at(0);
+  BOOST_TEST(stressed.limit().value_or(0) == 50 / (100 * std::sqrt(0.5)), tt::tolerance(5e-3));
+  BOOST_TEST(holds(stressed.message, "probe.wall"));
+}
+
+BOOST_AUTO_TEST_CASE(what_is_no_limit_to_look_for_is_refused_in_words) {
+  const Case c = impact_case();
+  for (const char* text : {"v0", "v0=3", "v0=3:2", "v0=0:2", "v0=a:2"})
+    BOOST_CHECK_EXCEPTION(found_of(c, text), InputError, says({"--limit-of", "KEY=LEAST:MOST"}));
+  BOOST_CHECK_EXCEPTION(found_of(c, "v1=1:2"), InputError, says({"--limit-of", "\"v0\""}));
+  BOOST_CHECK_EXCEPTION(found_of(c, "material.Ee=1:2"), InputError, says({"material.E"}));
+  BOOST_CHECK_EXCEPTION(found_of(c, "v0=1:2", {"v0=3"}), InputError, says({"v0 is what is sought"}));
+  BOOST_CHECK_EXCEPTION(found_of(c, "v0=1:2", {}, "contact.duratoin=1"), InputError, says({"contact.duration"}));
+  BOOST_CHECK_EXCEPTION(found_of(c, "v0=1:2", {}, "contact.duration"), InputError, says({"QUANTITY=NUMBER"}));
+  BOOST_CHECK_EXCEPTION(found_of(c, "", {}, "contact.duration=1"), InputError, says({"without --limit-of"}));
 }
 
 // ---- words and pictures ----
