@@ -392,17 +392,14 @@ BOOST_AUTO_TEST_CASE(the_faster_bars_meet_the_less_bears_mpm) {
 
 // What is left of K and G is 1 − D: the limit of the whole plate over √(1 − D).
 BOOST_AUTO_TEST_CASE(a_plate_that_is_all_but_damaged_stands_the_longer_step) {
-  const StabilityMap map = found_of(select_cases({"plate.stability.damaged"}).at(0), "courant=0.1:100", {}, "", 1000);
-  std::map<std::string, double> whole;
-  BOOST_REQUIRE(map.limits.size() == 8u);
-  for (const StabilityLimit& one : map.limits)
-    if (one.scene.empty()) whole[one.method] = one.limit().value_or(0);
-  BOOST_TEST(whole.at("fem") == 0.5879, tt::tolerance(0.01));
-  BOOST_TEST(whole.at("mpm-musl") == 1.732, tt::tolerance(0.01));
+  Case c = select_cases({"plate.stability.damaged"}).at(0);
+  std::erase_if(c.axes, [](const Axes& block) { return block.variant[0] != "" && block.variant[0] != "d-0999"; });
+  const StabilityMap map = found_of(c, "courant=0.5:60", {}, "", 400);
+  BOOST_REQUIRE(map.limits.size() == 4u);
   for (const StabilityLimit& one : map.limits) {
-    const double left = one.scene == "d-09" ? 0.1 : one.scene == "d-099" ? 0.01 : one.scene == "d-0999" ? 1e-3 : 1;
+    const double whole = one.method == "fem" ? 0.5879 : 1.732, left = one.scene.empty() ? 1 : 1e-3;
     BOOST_REQUIRE_MESSAGE(one.limit().has_value(), one.label << ": " << one.message);
-    BOOST_TEST(*one.limit() == whole.at(one.method) / std::sqrt(left), tt::tolerance(0.01));
+    BOOST_TEST(*one.limit() == whole / std::sqrt(left), tt::tolerance(0.01));
   }
 }
 
