@@ -50,7 +50,6 @@ struct Options {
   std::vector<int> counts;                    ///< bench: numbers of threads; empty: one, and all there are
   bool off = false;                           ///< bench: what features cost where they are off
   bool strict_time = false;                   ///< bench --off: the status is not 0 for times, too
-  long steps = 2000;                          ///< stability: of each look-ahead
   std::optional<long> steps;                  ///< stability: of each look-ahead; none: see StabilityPlan
   std::string limit_of, at_most;              ///< stability: what is sought instead of the step, and within what
   double within = 0.01;                       ///< stability: part of theory by which a limit may be off
