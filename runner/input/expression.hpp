@@ -40,8 +40,8 @@ class Expression {
 
 /// The value of an expression that a solver is given: throws InputError, naming `of`, the formula and the place, where
 /// it is no finite number. A run would end of it later and elsewhere, as one whose energy grows.
-template <class... Places>
-double finite_value(const char* of, const Expression& f, Places... at) {
+template <class... Coordinates>
+double finite_value(const char* of, const Expression& f, Coordinates... at) {
   const double value = f(at...);
   if (!std::isfinite(value)) f.refuse(of, value, {at...});
   return value;

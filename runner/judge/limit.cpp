@@ -24,12 +24,12 @@ void read_limit(Table& t, const Case& c, GateSpec& gate) {
   bisected.of_limit = true;
   if (of("predict", "critical_courant")) bisected.theory = t.need("predict", one_of({"stability-limit"}));
   if (of("ratio", "critical_courant")) bisected.ratio = read_ratio(t);
-  const bool above = of("outcome", "stable");
-  if (above) t.need("outcome", one_of({"unstable"}));
+  const bool of_outcome = of("outcome", "stable");
+  const bool completes = of_outcome && t.need("outcome", one_of({"unstable", "completed"})) == "completed";
   gate.steps = t.get("steps", whole(1, 1'000'000'000), static_cast<int>(gate.steps));
   if (!bisected.theory.empty()) check_scheme_theory(t.place("predict"), bisected.theory, gate, c);
-  if (above)
-    gate.criterion = std::make_shared<BlowUpCriterion>();
+  if (of_outcome)
+    gate.criterion = std::make_shared<BlowUpCriterion>(completes);
   else
     gate.criterion = std::make_shared<RatioCriterion>(bisected);
 }
@@ -50,13 +50,13 @@ void check_limits(const Place& place, const Case& c) {
 
 void BlowUpCriterion::judge(const Case&, const GateSpec&, const std::vector<JudgedRun>& runs,
                             reports::Gate& result) const {
-  result.formula = "the run is detected as unstable";
+  result.formula = completes_ ? "the run is not unstable" : "the run is detected as unstable";
   for (const JudgedRun& judged : runs) {
     const reports::Run& run = *judged.run;
     if (run.status != "unstable" && run.status != "completed") {
       throw Stop{reports::Verdict::error, run.label() + ": " + run.status + ": " + run.message};
     }
-    const double seen = run.status == "unstable" ? 1 : 0;
+    const double seen = (run.status == "completed") == completes_ ? 1 : 0;
     hold(result,
          {fmt::format("{}: {} after {} steps", run.label(), run.status, run.steps), seen, 1.0, 1, 1, seen, false});
   }
