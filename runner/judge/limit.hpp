@@ -7,11 +7,12 @@ namespace diptych::runner {
 
 /// Runs above the limit must be seen to blow up; those below it must come to their end.
 struct BlowUpCriterion : Criterion {
-  explicit BlowUpCriterion(bool completes = false) : completes_(completes) {}
+  BlowUpCriterion() = default;
+  explicit BlowUpCriterion(bool completes) : completes_(completes) {}
   void judge(const Case&, const GateSpec&, const std::vector<JudgedRun>&, reports::Gate&) const override;
 
  private:
-  bool completes_;
+  bool completes_ = false;
 };
 
 }  // namespace diptych::runner
