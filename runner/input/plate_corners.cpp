@@ -20,7 +20,7 @@
 namespace diptych::runner {
 namespace {
 
-using Support = Edge::Support;
+using EdgeSupport = Edge::Support;
 
 /// Where two sides meet, upright one first.
 struct Corner {
@@ -38,10 +38,10 @@ std::vector<Corner> corners_of(const PlateSpec& plate) {
 }
 
 /// Whether the side lets its nodes move so.
-bool lets_move(Support support, bool upright, double vx, double vy, double speed) {
+bool lets_move(EdgeSupport support, bool upright, double vx, double vy, double speed) {
   const double slack = 1e-9 * speed;
-  if (support == Support::fixed) return std::abs(vx) <= slack && std::abs(vy) <= slack;
-  if (support == Support::roller) return std::abs(upright ? vx : vy) <= slack;
+  if (support == EdgeSupport::fixed) return std::abs(vx) <= slack && std::abs(vy) <= slack;
+  if (support == EdgeSupport::roller) return std::abs(upright ? vx : vy) <= slack;
   return true;
 }
 
@@ -62,7 +62,7 @@ std::string contradiction_in(const Case& c) {
   for (const Corner& at : corners) {
     for (const bool drives_upright : {true, false}) {
       const std::size_t driven = drives_upright ? at.upright : at.level, other = drives_upright ? at.level : at.upright;
-      if (plate.supports[driven] != Support::driven) continue;
+      if (plate.supports[driven] != EdgeSupport::driven) continue;
       for (const double t : instants) {
         const double vx = along_x(at.x, at.y, t), vy = along_y(at.x, at.y, t);
         if (lets_move(plate.supports[other], !drives_upright, vx, vy, speed)) continue;

@@ -122,14 +122,14 @@ double seconds_of_run(const RunOfSteps& run, long steps) {
 
 void time_pair(OffSubject& subject, bool counts) {
   constexpr long few = 2, most = 20000;
-  constexpr double least = 0.1;  // [s] a run's steps; a clock's tick and a moment's noise are small beside it
+  constexpr double smallest = 0.1;  // [s] a run's steps; a clock's tick and a moment's noise are small beside it
   const auto stepping = [&](const RunOfSteps& run, double& start_up) {
     start_up = seconds_of_run(run, few);
     return seconds_of_run(run, few + subject.more) - start_up;
   };
   double start_up = 0;
   if (!counts) {
-    while (stepping(subject.without, start_up) < std::max(least, 2 * start_up) && subject.more < most)
+    while (stepping(subject.without, start_up) < std::max(smallest, 2 * start_up) && subject.more < most)
       subject.more *= 2;
     return;
   }

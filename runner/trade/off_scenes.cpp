@@ -39,9 +39,9 @@ Scene elastic_bar(int) {
 
 template <class S>
 S with_viscosity_of_nothing(S scene) {
-  material::Viscosity nothing;
-  nothing.c1 = nothing.c2 = 0;
-  scene.viscosity = nothing;
+  material::Viscosity bare;
+  bare.c1 = bare.c2 = 0;
+  scene.viscosity = bare;
   return scene;
 }
 
