@@ -40,7 +40,7 @@ int off_command(const Options& options, const std::atomic<bool>& cancelled) {
   for (const std::string& method : plan.methods) require_one_of("--method", method, panels_for(SceneKind::plate));
   if (options.counts.size() > 1 || (!options.counts.empty() && options.counts[0] != 1))
     throw InputError("--threads: found more than one; allowed with --off: 1");
-  if (!options.json.empty()) prepare(options.json.parent_path().empty() ? "." : options.json.parent_path());
+  prepare_file("--json", options.json, {});
   const std::vector<reports::OffRow> rows = off(plan, &cancelled, progress());
   print("{}", reports::off_text(rows));
   if (!options.json.empty()) reports::write_file(options.json, reports::off_json(rows, provenance()));
@@ -76,7 +76,7 @@ int bench_command(const Options& options, const std::atomic<bool>& cancelled) {
     plan.threads = {1};
     if (all > 1) plan.threads.push_back(all);
   }
-  if (!options.json.empty()) prepare(options.json.parent_path().empty() ? "." : options.json.parent_path());
+  prepare_file("--json", options.json, {});
   const std::vector<reports::BenchRow> rows = bench(plan, &cancelled, progress());
   print("{}", reports::bench_text(rows));
   for (const BenchScene& scene : bench_scenes()) {

@@ -78,11 +78,9 @@ void require_all(const std::vector<reports::Case>& results, const Options& optio
     for (const auto& run : result.runs)
       if (run.status == "missing") missing.push_back(run.case_id + ": " + run.label());
   if (missing.empty()) return;
-  constexpr std::size_t most = 10;
-  const std::size_t all = missing.size();
-  missing.resize(std::min(most, all));
-  throw InputError(fmt::format("{}: has no record, made by this build of the program, of {} runs{}:\n  {}",
-                               options.from.string(), all, all > most ? ", among them" : "", listed(missing, "\n  ")));
+  throw InputError(some_of(fmt::format("{}: has no record, made by this build of the program, of {} runs:",
+                                       options.from.string(), missing.size()),
+                           missing));
 }
 
 std::vector<reports::Case> measure_cases(const std::vector<Case>& cases, const Options& options, Purpose purpose,

@@ -42,10 +42,10 @@ std::unique_ptr<Keeping> keeping_of(const Options& options) {
   if (!options.from.empty()) {
     if (!std::filesystem::is_directory(options.from))
       throw InputError(options.from.string() + ": is no folder; allowed: a store");
-    return std::unique_ptr<Keeping>(new Keeping{{options.from, build_of_this_program()}, false, true});
+    return std::make_unique<Keeping>(Store(options.from, build_of_this_program()), false, true);
   }
   if (options.store == "none") return nullptr;
-  return std::unique_ptr<Keeping>(new Keeping{{store_of(options), build_of_this_program()}, options.fresh});
+  return std::make_unique<Keeping>(Store(store_of(options), build_of_this_program()), options.fresh);
 }
 
 void tell_kept(const Keeping* keeping) {

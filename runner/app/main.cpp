@@ -143,8 +143,8 @@ int main(int argc, char** argv) {
   pick->footer("Example: diptych pick bar.step.fixed-free --error 10% --quantity stress.L1 --time 1.7");
   pick->callback([&] { status = pick_command(options, cancelled); });
 
-  auto* stability = app.add_subcommand(
-      "stability", "the largest stable time step, load or speed of each setting, by bisection, beside theory");
+  auto* stability =
+      app.add_subcommand("stability", "the largest stable time step, load or speed of each setting, beside theory");
   add_cases(stability, true);
   stability
       ->add_option("--over", options.over,

@@ -47,15 +47,6 @@ std::map<std::string, std::string> known_runs(const std::vector<Case>& cases, co
   return known;
 }
 
-/// A headline and up to ten lines of a list.
-std::string some_of(const std::string& headline, const std::vector<std::string>& lines) {
-  constexpr std::size_t most = 10;
-  std::string out = headline;
-  for (std::size_t i = 0; i < std::min(most, lines.size()); ++i) out += "\n  " + lines[i];
-  if (lines.size() > most) out += fmt::format("\n  and {} more", lines.size() - most);
-  return out;
-}
-
 }  // namespace
 
 Shard shard_of(const std::string& text) {
@@ -76,7 +67,7 @@ int make_shard(const std::vector<Case>& cases, Running running, const Options& o
   bool all = true;
   for (const reports::Case& result : run_cases(cases, running)) {
     for (const reports::Run& run : result.runs) {
-      if (run.status == "left out" || run.status == "completed" || run.status == "unstable") continue;
+      if (run.status == "left out" || worth_keeping(run)) continue;
       all = false;
       tell("{}: {}: {} {}\n", run.case_id, run.label(), run.status, run.message);
     }

@@ -16,6 +16,14 @@
 
 namespace diptych::runner {
 
+std::string some_of(const std::string& headline, const std::vector<std::string>& lines) {
+  constexpr std::size_t most = 10;
+  std::string out = headline;
+  for (std::size_t i = 0; i < std::min(most, lines.size()); ++i) out += "\n  " + lines[i];
+  if (lines.size() > most) out += fmt::format("\n  and {} more", lines.size() - most);
+  return out;
+}
+
 int threads_of(const Options& options) {
   return options.threads > 0 ? options.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }

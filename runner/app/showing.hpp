@@ -33,6 +33,9 @@ void tell(fmt::format_string<Args...> format, Args&&... args) {
   std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
+/// A headline, and below it up to ten lines of a list.
+std::string some_of(const std::string& headline, const std::vector<std::string>& lines);
+
 int threads_of(const Options&);
 
 /// A bar on a terminal, a plain line every quarter of the way elsewhere; on standard error, so results stay clean.

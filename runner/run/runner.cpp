@@ -74,12 +74,23 @@ void share(std::vector<Task>& tasks, const Running& running) {
   tasks = std::move(made);
 }
 
+/// Whether a record of the run would be taken for it. One whose bits a gate wants compared is made again, whatever the
+/// store has: that it comes out the same is what is asked. Not so of a shard, which judges nothing and goes on where it
+/// was.
+bool may_be_kept_already(const Task& task, const Running& running) {
+  if (!running.keeping || running.keeping->fresh || running.limit_seconds) return false;
+  if (running.keeping->only || running.shard) return true;
+  return std::none_of(task.c->gates.begin(), task.c->gates.end(), [&](const GateSpec& gate) {
+    return gate.quantity.starts_with("bits.") && matches(gate.where, task.leaf);
+  });
+}
+
 /// What the tasks will take whose runs are not kept.
 Ahead all_ahead(const std::vector<Task>& tasks, const Running& running) {
   Ahead all;
   double longest = 0;
   for (const Task& task : tasks) {
-    if (running.keeping && !running.keeping->fresh && running.keeping->store.has(task.words)) continue;
+    if (may_be_kept_already(task, running) && running.keeping->store.has(task.words)) continue;
     ++all.runs;
     all.steps += task.steps;
     all.most_steps = std::max(all.most_steps, task.steps);
@@ -90,23 +101,15 @@ Ahead all_ahead(const std::vector<Task>& tasks, const Running& running) {
   return all;
 }
 
-/// A run that was made before. One whose bits a gate wants compared is made again, whatever the store has: that it
-/// comes out the same is what is asked.
 std::optional<reports::Run> run_made_before(const Task& task, const Running& running) {
-  if (!running.keeping || running.keeping->fresh || running.limit_seconds) return {};
-  const bool bits =
-      !running.keeping->only && std::any_of(task.c->gates.begin(), task.c->gates.end(), [&](const GateSpec& gate) {
-        return gate.quantity.starts_with("bits.") && matches(gate.where, task.leaf);
-      });
-  if (bits) return {};
+  if (!may_be_kept_already(task, running)) return {};
   auto run = running.keeping->store.find(task.words);
   if (run) ++running.keeping->found;
   return run;
 }
 
-/// What the same run would come to again is kept; what was stopped, or went wrong, is not.
 void keep_run(const Task& task, const reports::Run& run, Keeping& keeping) {
-  if (run.status != "completed" && run.status != "unstable" && run.status != "left-grid") return;
+  if (!worth_keeping(run)) return;
   try {
     keeping.store.keep(task.words, run);
     ++keeping.kept;
@@ -176,6 +179,10 @@ void look_ahead(std::vector<Task>& tasks, const std::vector<Case>& cases, const 
 }
 
 }  // namespace
+
+bool worth_keeping(const reports::Run& run) {
+  return run.status == "completed" || run.status == "unstable" || run.status == "left-grid";
+}
 
 bool Shard::has(const std::string& words) const {
   return hash_of(words) % static_cast<std::uint64_t>(of) == static_cast<std::uint64_t>(number - 1);

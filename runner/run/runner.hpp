@@ -32,6 +32,9 @@ struct Keeping {
 /// judged.
 std::vector<reports::Case> run_cases(const std::vector<Case>&, const Running&);
 
+/// Whether the same run would come to this again: what was stopped, or went wrong, is not kept.
+bool worth_keeping(const reports::Run&);
+
 /// A run that a command would make.
 struct PlannedRun {
   std::string case_id, label;

@@ -14,7 +14,7 @@
 namespace diptych::runner {
 namespace {
 
-std::string value_of(const LimitOf& what, double value) { return fmt::format("{}={}", what.key, value); }
+std::string written_as(const LimitOf& what, double value) { return fmt::format("{}={}", what.key, value); }
 
 std::vector<std::string> and_one(std::vector<std::string> over, const std::string& more) {
   over.push_back(more);
@@ -34,7 +34,7 @@ LimitOf limit_of(const Case& c, const std::string& text) {
     throw InputError(fmt::format("--limit-of: found {}; allowed: KEY=LEAST:MOST with 0 < LEAST < MOST", words(text)));
   LimitOf what{text.substr(0, equals), *least, *most};
   if (what.of_file()) {
-    with_values(c, {value_of(what, *least)});  // a key that there is not is refused here, once
+    with_values(c, {written_as(what, *least)});  // a key that there is not is refused here, once
     return what;
   }
   Names keys{"courant"};
@@ -64,7 +64,7 @@ Loaded with_value(const Case& c, const Leaf& leaf, const LimitOf& what, double v
                   const std::vector<std::string>& over, std::size_t which) {
   Leaf one = leaf;
   if (what.of_file()) {
-    const std::vector<Case> made = with_values(c, and_one(over, value_of(what, value)));
+    const std::vector<Case> made = with_values(c, and_one(over, written_as(what, value)));
     const Case& changed = made.at(which);
     return {std::make_shared<const Case>(with_parameters(changed, one)), one};
   }

@@ -51,10 +51,10 @@ double squared_difference(const std::vector<double>& a, const std::vector<double
 }
 
 /// As a kinetic energy goes: of the velocities by which the two differ.
-double difference(const Snapshot& a, const Snapshot& b) {
+double difference_of_motion(const Snapshot& a, const Snapshot& b) {
   return squared_difference(a.velocity.value, b.velocity.value);
 }
-double difference(const PlateSnapshot& a, const PlateSnapshot& b) {
+double difference_of_motion(const PlateSnapshot& a, const PlateSnapshot& b) {
   double sum = 0;
   for (std::size_t k = 0; k < std::min(a.velocity.component.size(), b.velocity.component.size()); ++k)
     sum += squared_difference(a.velocity.component[k], b.velocity.component[k]);
@@ -100,7 +100,7 @@ LoadedRun looked_at(const LeafScene<S, M, R>& it, std::optional<long> steps, con
   const R other = it.solver.run(seeded(it.scene), it.mesh, stepping);
   std::vector<double> differences;
   for (std::size_t k = 0; k < std::min(plain.snapshots.size(), other.snapshots.size()); ++k)
-    differences.push_back(difference(plain.snapshots[k], other.snapshots[k]));
+    differences.push_back(difference_of_motion(plain.snapshots[k], other.snapshots[k]));
   std::erase_if(differences, [](double one) { return !std::isfinite(one); });
   const Growth growth = growth_of(differences, stride, stepping.steps);
   found.rate = growth.rate;
