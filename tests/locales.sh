@@ -15,8 +15,8 @@ awk -v RS= -v ORS='\n\n' '/^\[\[gate]]/ && !/id = "balance"/ { next } /^\[\[figu
 draw() { # draw NAME COMMAND...
   local name=$1
   shift
-  { "$@" "$program" paper "${figures[@]}" --out "$work/$name" &&
-    "$@" "$program" run "$work/mesh-one.toml" --out "$work/$name"; } >"$work/$name.log" 2>&1 || {
+  { "$@" "$program" paper "${figures[@]}" --store none --out "$work/$name" &&
+    "$@" "$program" run "$work/mesh-one.toml" --store none --out "$work/$name"; } >"$work/$name.log" 2>&1 || {
     echo "$name: exit status $?"
     tail -n 10 "$work/$name.log"
     failures=$((failures + 1))
